@@ -64,7 +64,7 @@ def elements(document: Document) -> list[Element]:
 def test_after_random_edits_nothing_tells_what_was_parsed_before(seed: int) -> None:
     chance = random.Random(seed)
     text, taken_over = TEXT, 0
-    document, launch_file = parsed(text), read_launch(Text.of(PATH, text), dict)
+    document, launch_file = parsed(text), read_launch(Text.of(PATH, text))
     for _ in range(120):
         start = chance.randrange(len(text) + 1)
         end = min(len(text), start + chance.choice((0, 0, 0, 1, 3, 20)))
@@ -73,8 +73,8 @@ def test_after_random_edits_nothing_tells_what_was_parsed_before(seed: int) -> N
             edited = TEXT  # most of what is typed is well-formed again soon
         now, alone = parsed(edited, document), parsed(edited)
         assert shape(now) == shape(alone)
-        file_now = read_launch(Text.of(PATH, edited), dict, before=launch_file)
-        file_alone = read_launch(Text.of(PATH, edited), dict)
+        file_now = read_launch(Text.of(PATH, edited), before=launch_file)
+        file_alone = read_launch(Text.of(PATH, edited))
         assert (file_now.root, file_now.extra_roots) == (file_alone.root, file_alone.extra_roots)
         before = {id(element.original) for element in elements(document)}
         taken_over += any(id(element.original) in before for element in elements(now))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import inspect
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,22 +12,22 @@ import pytest
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import LineIndex, Span
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.evaluation.reading import read_launch
 from preflight_analysis.evaluation.ros2.actions import registry
 from preflight_analysis.evaluation.ros2.check_language import check_language_ros2
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
-from preflight_analysis.evaluation.ros2.entity import Entity
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.launch.model import NODE_KINDS
 from preflight_analysis.launch.python_actions import actions_of
-from preflight_analysis.launch.python_classes import PythonClass
+from preflight_analysis.launch.python_api import BY_NAME, parameters
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.read import read_launch
 from preflight_analysis.launch.schema import Tag
+from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 from preflight_analysis.queries.symbols import symbols
+from preflight_analysis.tracing.agents.fake_launch.api import CALLS, CHILDREN, Call
 from preflight_analysis.tracing.agents.fake_launch.base import Action as FakeAction
-from preflight_analysis.tracing.agents.fake_launch.base import LaunchDescription
+from preflight_analysis.tracing.agents.fake_launch.base import Substitution as FakeSubstitution
 from preflight_analysis.tracing.agents.fake_launch.modules import TABLE
-from preflight_analysis.tracing.agents.fake_launch.processes import Executable, ExecuteProcess
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -229,7 +228,7 @@ def test_each_action_of_xml_does_something(kind: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", [kind for kind in registry.actions() if kind not in TAGS])
 def test_each_action_of_python_alone_is_run_in_a_test(kind: str) -> None:
     """`tests/tracing` runs launch files in the sandbox."""
-    names = [each.short_name for each in registry.actions()[kind].python]
+    names = [each.short_name for each in CALLS if each.kind == kind]
     texts = [path.read_text() for path in TRACING.glob("test_python*.py")]
     assert kind in ("unknown", "test", "stand_in") or any(f"{name}(" in text for name in names for text in texts)
 
@@ -237,52 +236,45 @@ def test_each_action_of_python_alone_is_run_in_a_test(kind: str) -> None:
 # What a Python launch file gets in place of `launch`
 
 
-def _classes() -> Iterator[tuple[Entity, PythonClass]]:
-    return ((entity, each) for entity in registry.entities().values() for each in entity.python)
-
-
-@pytest.mark.parametrize("name", [each.name for _, each in _classes()])
-def test_a_python_class_has_its_fake_that_takes_the_same(name: str) -> None:
-    known = next(each for _, each in _classes() if each.name == name)
-    module, _, short = name.rpartition(".")
+@pytest.mark.parametrize("call", [each for each in CALLS if each.name.startswith("launch")], ids=lambda each: each.name)
+def test_a_class_is_made_of_what_is_declared(call: Call) -> None:
+    module, _, short = call.name.rpartition(".")
     fake = TABLE[module][short]
-    bases = (*fake.__mro__, Executable) if issubclass(fake, ExecuteProcess) else fake.__mro__  # to which it hands on
-    parameters = [p for cls in bases for p in _parameters(cls)]
-    own = next(found for cls in fake.__mro__ if (found := _parameters(cls)))
-    assert tuple(p.name for p in own if p.kind is p.POSITIONAL_OR_KEYWORD) == known.positional
-    assert set(known.keywords.values()) <= {p.name for p in parameters}
-    assert {known.parameter(attribute) for attribute in known.unrun or ()} <= {p.name for p in parameters}
+    assert (fake.preflight_call.kind, parameters(fake.preflight_call)) == (call.kind, parameters(call))
+    above = next((each for each in fake.__mro__ if each.__name__ == call.of), None)
+    assert (above is not None) == bool(call.of)
+    handed_on = parameters(above.preflight_call) if above is not None else ()
+    assert set(call.gives) <= {each.name for each in handed_on or ()}
+    taken = {each.name for each in parameters(call) or ()}
+    assert set(call.attributes.values()) <= taken
 
 
-@pytest.mark.parametrize(("kind", "name"), [(entity.kind, each.name) for entity, each in _classes()])
-def test_a_fake_says_that_it_is_of_the_kind(kind: str, name: str) -> None:
-    module, _, short = name.rpartition(".")
-    fake = TABLE[module][short]
-    if fake is LaunchDescription:  # which `serialize.py` knows by itself
-        return
-    said = f't.kind = "{kind}"', f'kind = "{kind}"', f"t.{kind}()"
-    texts = [inspect.getsource(cls.preflight_serialize) for cls in fake.__mro__ if "preflight_serialize" in vars(cls)]
-    assert getattr(fake, "preflight_kind", None) == kind or any(each in text for text in texts for each in said)
-
-
-def _parameters(cls: type) -> list[inspect.Parameter]:
-    if "__init__" not in vars(cls) or cls is object:
-        return []
-    found = list(inspect.signature(vars(cls)["__init__"]).parameters.values())[1:]
-    return [p for p in found if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
+def test_python_says_what_is_wrong_with_a_call() -> None:
+    node, remap = TABLE["launch_ros.actions"]["Node"], TABLE["launch_ros.actions"]["SetRemap"]
+    with pytest.raises(TypeError, match=r"__init__\(\) missing 1 required keyword-only argument: 'executable'"):
+        node(package="p")
+    with pytest.raises(TypeError, match=r"__init__\(\) got an unexpected keyword argument 'pkg'"):
+        node(executable="x", pkg="p")
+    with pytest.raises(TypeError, match=r"__init__\(\) missing 1 required positional argument: 'dst'"):
+        remap("a")
 
 
 def test_each_fake_action_is_declared() -> None:
-    declared = {each.name for _, each in _classes()}
-    modules = ("launch.actions", "launch_ros.actions")
+    modules = ("launch.actions", "launch_ros.actions", "launch.substitutions", "launch_ros.substitutions")
     fakes = {
         f"{module}.{name}"
         for module in modules
         for name, thing in TABLE[module].items()
-        if isinstance(thing, type) and issubclass(thing, FakeAction)
+        if isinstance(thing, type) and issubclass(thing, (FakeAction, FakeSubstitution))
     }
-    assert fakes > {"launch.actions.PushEnvironment", "launch_ros.actions.Node"}
-    assert fakes - declared == set()
+    assert fakes > {"launch.actions.PushEnvironment", "launch_ros.actions.Node", "launch.substitutions.AnonName"}
+    assert fakes - BY_NAME.keys() == set()
+
+
+def test_what_is_declared_is_evaluated() -> None:
+    substitutions = {*SUBSTITUTIONS_ROS2, "find-pkg", "local"}
+    assert {each.kind for each in CALLS if each.kind} - registry.entities().keys() - substitutions == set()
+    assert CHILDREN.keys() <= registry.entities().keys()
 
 
 def test_a_kind_is_declared_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -310,7 +302,7 @@ def test_nodes_in_a_loop_are_in_the_outline() -> None:
 def test_the_names_of_a_remap_are_where_they_are_written(call: str) -> None:
     source = PythonSource(call, LineIndex(call))
     record = {"k": "set_remap", "n": "SetRemap", "p": [1, 0], "a": {"from": ["a"], "to": ["b"]}, "c": []}
-    (action,) = actions_of([record], source, Span(0, 0), registry.python_classes())
+    (action,) = actions_of([record], source, Span(0, 0))
     spans = [attribute.value.span for attribute in action.attributes]
     assert [call[span.start : span.end].strip("'") for span in spans] == ["a", "b"]
 

@@ -7,8 +7,8 @@ import time
 import pytest
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import ByteOffsets
-from preflight_analysis.evaluation.reading import read_launch
 from preflight_analysis.launch.python_tree import PythonTree
+from preflight_analysis.launch.read import read_launch
 
 
 @pytest.mark.parametrize("text", ["x=" + "a." * 1_000_000, "x=a" + ".a" * 1_000_000, "x=" + "f(x y, " * 50_000])

@@ -9,8 +9,8 @@ from pathlib import Path
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from preflight_analysis.documents.reading import Text
-from preflight_analysis.evaluation.reading import read_launch
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.read import read_launch
 
 WHOLE = """\
 from launch import LaunchDescription

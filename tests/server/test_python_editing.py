@@ -136,6 +136,8 @@ async def completed(editor: Editor, path: Path, body: str, trigger: str | None =
 
 
 WHOLE = [
+    ("    return Node(|)\n", "executable required"),
+    ("    return Node(executable='a', |)\n", "package = None"),
     ("    return Node(package='|')\n", "robot"),
     ("    return get_package_share_directory('|')\n", "robot"),
     ("    return FindPackageShare('ro|')\n", "robot"),
@@ -174,6 +176,7 @@ WHOLE = [
     ("    return PathJoinSubstitution([FindPackageShare('robot'), 'launch', '|'])\n", "outer.launch.xml"),
 ]
 HALF = [
+    ("    return LaunchDescription([\n        Node(package='robot', exe|\n", "executable required"),
     ("    return LaunchDescription([\n        Node(package='|\n", "robot"),
     ("    return LaunchDescription([\n        Node(package='|'\n", "robot"),
     (
@@ -211,7 +214,7 @@ HALF = [
 ]
 NOT_OURS = [
     "    print('|')\n",
-    "    return Node(|)\n",
+    "    return int(|)\n",
     "    return Node(package='robot', name='|')\n",
     "    # Node(package='|')\n",
     '    """Node(package=\'|\')"""\n',
@@ -338,7 +341,12 @@ async def test_what_else_is_shown(harness: Harness, package: Path) -> None:
         assert {editor.covered(main, lens.range) for lens in lenses} == {"generate_launch_description"}
         assert await editor.folds(main) == []
         assert await editor.tokens(main) == []
-        assert await editor.signature(main, editor.at(main, "'speed'", 2)) is None
+        found = await editor.signature(main, editor.at(main, "'speed'", 2))
+        assert found is not None
+        (signature,) = found.signatures
+        assert signature.label.startswith("DeclareLaunchArgument(name, *, default_value=None, description=None")
+        assert found.active_parameter == 0
+        assert await editor.signature(main, editor.at(main, "share = ")) is None
         half = MAIN.replace("name='talker',", "name='tal")
         editor.change(main, half)
         assert [s.detail for s in await editor.symbols(main) if s.detail] == ["robot/talker"]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.evaluation.ros2.actions.registry import entities
+from preflight_analysis.tracing.agents.fake_launch.api import CALLS
 from preflight_analysis.tracing.backend import AGENTS
 from support.python_launch_harness import PythonHarness
 
@@ -46,6 +47,7 @@ def _started(harness: PythonHarness, *actions: str, before: str = "", args: dict
 
 def _kinds() -> Iterator[str]:
     """What the fake gives as the kind of an action or a child, wherever it does."""
+    yield from (each.kind for each in CALLS if each.kind in entities())
     for path in (AGENTS.library / "fake_launch").glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.Assign):

@@ -14,6 +14,7 @@ from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.hash_comments import HashComments
 from preflight_analysis.launch.model import Action, ActionAttribute
+from preflight_analysis.launch.python_api import NODES
 from preflight_analysis.launch.python_source import PythonSource, last_name
 
 _ACTIONS, _SUBSTITUTIONS = "launch.actions", "launch.substitutions"
@@ -21,7 +22,6 @@ _STRING = re.compile(r"([rRuU]?)(\"\"\"|'''|\"|')")
 _COMMA = re.compile(r"(?:\s|#[^\n]*\n)*,")
 _BLANKS = re.compile(r"[ \t]*(?:#[^\n]*)?(?:\r?\n[ \t]*)?")
 _IMPORTED_FROM = ("launch", "launch_ros")
-_REMAPPED = frozenset({"Node", "LifecycleNode", "ComposableNode", "ComposableLifecycleNode", "ComposableNodeContainer"})
 
 
 class _Literal(NamedTuple):
@@ -82,7 +82,7 @@ class PythonWriter(HashComments):
     def add_remap(self, node: Action, source: str, target: str) -> tuple[Edit, ...]:
         """Remap a name of a node."""
         call = self._call(node)
-        if call is None or last_name(call.func) not in _REMAPPED:
+        if call is None or last_name(call.func) not in NODES:
             return ()
         pair = f"({self._quoted(source)}, {self._quoted(target)})"
         given = next((k.value for k in call.keywords if k.arg == "remappings"), None)

@@ -6,31 +6,12 @@ import os
 from functools import partial
 
 from preflight_analysis.documents.disk import text_of
-from preflight_analysis.documents.reading import Text, Unreadable
+from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import Input, query
 from preflight_analysis.launch import read
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_classes import PythonClasses
-
-
-def read_launch(
-    source: Text,
-    generation: int | None = None,
-    undecided: int = 1,
-    of_package: read.OfPackage = read.no_package,
-    before: LaunchFile | None = None,
-) -> LaunchFile:
-    """The launch file of a text; see `launch.read`."""
-    return read.read_launch(source, _python_classes, generation, undecided, of_package, before)
-
-
-def _python_classes() -> PythonClasses:
-    # Who has launch files of ROS 1 alone starts faster without.
-    from preflight_analysis.evaluation.ros2.actions.registry import python_classes  # noqa: PLC0415
-
-    return python_classes()
 
 
 def _undecided() -> int:
@@ -49,11 +30,11 @@ def launch_file_of(db: Database, path: str, generation: int | None) -> LaunchFil
         return text
     before = known if isinstance(known := db.previous, LaunchFile) else None
     if generation is None:
-        return read_launch(text, undecided=UNDECIDED(db), of_package=partial(generation_around, db), before=before)
+        return read.read_launch(text, undecided=UNDECIDED(db), of_package=partial(generation_around, db), before=before)
     looks = launch_file_of(db, path, None)
     if not isinstance(looks, Unreadable) and looks.generation == generation:
         return looks
-    return read_launch(text, generation, before=before)
+    return read.read_launch(text, generation, before=before)
 
 
 @query

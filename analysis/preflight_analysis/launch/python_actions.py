@@ -11,19 +11,18 @@ from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.launch import python_api
 from preflight_analysis.launch.model import Action, ActionAttribute, Literal, Substitution, Typed, Value
-from preflight_analysis.launch.python_classes import PythonClass, PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 
 MAX_DEPTH = 120
 OF_CODE = ("python", "own", "unknown")
 """Commands of substitutions that stand for what only code gives."""
-_NO_CLASS = PythonClass("")
 
 
-def actions_of(records: object, source: PythonSource, around: Span, python: PythonClasses) -> tuple[Action, ...]:
+def actions_of(records: object, source: PythonSource, around: Span) -> tuple[Action, ...]:
     """The actions of records. `around` is the place of those that were made elsewhere."""
-    return _Reader(source, python).actions(records, around, None, 0)
+    return _Reader(source).actions(records, around, None, 0)
 
 
 class _Parent(NamedTuple):
@@ -31,13 +30,13 @@ class _Parent(NamedTuple):
     known: of several dictionaries in a list, each has its own keys."""
 
     call: ast.Call
-    made_by: PythonClass
+    kind: str
     part: ast.expr | None = None
 
 
 class _Reader:
-    def __init__(self, source: PythonSource, python: PythonClasses) -> None:
-        self._source, self._python = source, python
+    def __init__(self, source: PythonSource) -> None:
+        self._source = source
         self._keys: dict[int, dict[str, tuple[ast.expr, ast.expr | None]]] = {}
         """What `_pairs` says of an argument, by the keys: looked through once, for all its children."""
         self._wholes: dict[tuple[int, str], ast.expr | None] = {}
@@ -56,7 +55,7 @@ class _Reader:
         given = _keywords(parent.call).get("parameters") if parent is not None and parent.part is None else None
         if parent is None or given is None:
             return {}
-        parameters = [record for record in records if self._python.parameters.get(record["k"]) == "parameters"]
+        parameters = [record for record in records if python_api.CHILDREN.get(record["k"]) == "parameters"]
         items = self._source.resolved(given)
         if not isinstance(items, (ast.List, ast.Tuple)):
             return {}
@@ -67,7 +66,7 @@ class _Reader:
         if len(numbers) != len(parameters):
             return {}
         return {
-            id(record): _Parent(parent.call, parent.made_by, items.elts[number])
+            id(record): _Parent(parent.call, parent.kind, items.elts[number])
             for record, number in zip(parameters, numbers, strict=True)
         }
 
@@ -85,11 +84,11 @@ class _Reader:
         pair = self._pair(kind, record, parent) if call is None and parent is not None else None
         if pair is not None and not line:
             kind_span = head = span = source.span(pair[0])
-        made_by = self._python.by_kind.get(kind, _NO_CLASS)
+        made_by = python_api.made_by(kind)
         given = _arguments(call, made_by) if call is not None else {}
         attributes = []
         for name, value in _items(record.get("a")):
-            node = given.get(made_by.parameter(name)) if call is not None else None
+            node = given.get(python_api.parameter_of(made_by, name)) if call is not None else None
             if pair is not None:
                 node = pair[1] if name in ("value", "to") and pair[1] is not None else pair[0]
             attributes.append(self._attribute(name, value, node, kind_span, call))
@@ -99,7 +98,7 @@ class _Reader:
         if kind == "opaque" and isinstance(number, int):
             attributes.append(self._text("id", str(number), kind_span))
             attributes.append(self._text("class", str(record.get("n")), kind_span))
-        inside = _Parent(call, made_by) if call is not None else parent
+        inside = _Parent(call, kind) if call is not None else parent
         children = self.actions(record.get("c"), kind_span, inside, depth + 1)
         return Action(kind, kind_span, tuple(attributes), children, (), _literal("", kind_span), head, span)
 
@@ -175,7 +174,8 @@ class _Reader:
         key = id(parent.call), kind
         if key not in self._wholes:
             keywords = _keywords(parent.call)
-            names = (self._python.parameters.get(kind, kind), parent.made_by.parameter(kind))
+            made_by = python_api.made_by(parent.kind)
+            names = (python_api.CHILDREN.get(kind, kind), python_api.parameter_of(made_by, kind))
             self._wholes[key] = next((keywords[name] for name in names if name in keywords), None)
         return self._wholes[key]
 
@@ -210,9 +210,9 @@ def _shown(piece: dict[str, Any], arguments: str) -> str:
     return f"var {arguments}" if arguments.isidentifier() else arguments
 
 
-def _arguments(call: ast.Call, made_by: PythonClass) -> dict[str, ast.expr]:
+def _arguments(call: ast.Call, made_by: python_api.Call) -> dict[str, ast.expr]:
     given = _keywords(call)
-    for name, node in zip(made_by.positional, call.args, strict=False):
+    for name, node in zip(python_api.positional(made_by), call.args, strict=False):
         given.setdefault(name, node)
     return given
 

@@ -190,14 +190,14 @@ class PythonSource:
     def _single_calls(self) -> Iterator[ast.AST]:
         if len(self.text) > MAX_CHARACTERS:
             return
-        brackets = _brackets(self.text)
+        known = brackets(self.text)
         behind = count = parsed = 0
         for found in _NAME_AND_BRACKET.finditer(self.text):
             name = _NAME.search(self.text, found.start(), found.end()) if found[1] is not None else None
             if name is None:
                 continue
             start = name.start()
-            end, commas = brackets.get(found.end() - 1, (None, ()))
+            end, commas = known.get(found.end() - 1, (None, ()))
             if start < behind:
                 continue
             if count > _MAX_CALLS or parsed > _MAX_PARSED:
@@ -353,7 +353,7 @@ def _expression(text: str) -> ast.expr | None:
         return None
 
 
-def _brackets(text: str) -> dict[int, tuple[int | None, list[int]]]:
+def brackets(text: str) -> dict[int, tuple[int | None, list[int]]]:
     """Each opening bracket with the one that closes it, if any, and the commas right inside."""
     found: dict[int, tuple[int | None, list[int]]] = {}
     opened: list[int] = []
@@ -367,6 +367,20 @@ def _brackets(text: str) -> dict[int, tuple[int | None, list[int]]]:
         elif token["comma"] and opened:
             found[opened[-1]][1].append(token.start())
     return found
+
+
+def is_quoted(text: str, offset: int) -> bool:
+    """Whether a place is in a string, one whose end is missing too, or in a comment."""
+    end = 0
+    for token in _TOKEN.finditer(text):
+        if token.start() >= offset:
+            break
+        end = token.end()
+        if token["string"] and offset < end:
+            return True
+        if token["comment"] and offset <= end:
+            return True
+    return re.search(r"[\"']", text[max(end, text.rfind("\n", 0, offset) + 1) : offset]) is not None
 
 
 @derived

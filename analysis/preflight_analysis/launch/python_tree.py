@@ -14,21 +14,13 @@ import tree_sitter_python
 from tree_sitter import Language, Node, Parser
 
 from preflight_analysis.documents.span import ByteOffsets, Span
+from preflight_analysis.launch.python_api import NAMES
 from preflight_analysis.launch.python_source import MAX_CHARACTERS
 
 _LANGUAGE = Language(tree_sitter_python.language())
 MAX_BRACKETS = 200
 """As many may be open at once; Python itself refuses more. tree-sitter takes long to get over them."""
 _MAX_DEPTH = 20
-_SUBSTITUTIONS = {
-    "get_package_share_directory": "find-pkg-share",
-    "get_package_share_path": "find-pkg-share",
-    "FindPackageShare": "find-pkg-share",
-    "get_package_prefix": "find-pkg-prefix",
-    "FindPackagePrefix": "find-pkg-prefix",
-    "LaunchConfiguration": "var",
-    "EnvironmentVariable": "env",
-}
 _SAME = frozenset({"str", "Path", "TextSubstitution", "realpath", "abspath", "normpath", "ParameterFile"})
 """Calls that come to what they are given."""
 _BRACKET = re.compile(r"[()\[\]{}]")
@@ -162,8 +154,7 @@ class PythonTree:
         first = self.launch_text(values[0], depth + 1)
         if first is None or name in _SAME or name.endswith("LaunchDescriptionSource"):
             return first
-        command = _SUBSTITUTIONS.get(name)
-        return f"$({command} {first})" if command is not None else None
+        return f"$({NAMES[name][0]} {first})" if name in NAMES else None
 
     def _offset(self, byte: int) -> int:
         return self._bytes.offset(byte)

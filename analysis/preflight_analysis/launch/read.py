@@ -16,7 +16,6 @@ from preflight_analysis.documents.xml import parse_xml, without_comments
 from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.launch.catalogued import read_catalogued
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.launch.ros1_xml import read_ros1
 from preflight_analysis.launch.ros2_python import read_ros2_python
@@ -60,20 +59,19 @@ def no_package(path: str) -> int | None:
 
 def read_launch(
     source: Text,
-    python: Callable[[], PythonClasses],
     generation: int | None = None,
     undecided: int = 1,
     of_package: OfPackage = no_package,
     before: LaunchFile | None = None,
 ) -> LaunchFile:
     """The launch file of a text, read as that generation of ROS reads it; None: as it looks, and as `undecided` where
-    nothing tells. `python` is asked for Python files only. `of_package` gives the generation of the package that a file
+    nothing tells. `of_package` gives the generation of the package that a file
     is in. `before` is the file as it was: what an edit leaves alone is taken over. Never raises."""
     path, text = source.path, source.text
     if catalogued_file(path) is not None:
         return read_catalogued(source)
     if is_python(path, text):
-        return read_ros2_python(source, python())
+        return read_ros2_python(source)
     if is_yaml(path):
         return read_ros2_yaml(parse_yaml(path, text, source.lines))
     document = parse_xml(path, text, source.encoding, source.lines, before.document if before is not None else None)

@@ -14,9 +14,9 @@ from preflight_analysis.documents.document import Document, SyntaxProblem
 from preflight_analysis.documents.hash_comments import preflight_comments
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import Span
+from preflight_analysis.launch import python_api
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.python_actions import actions_of
-from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource, last_name
 from preflight_analysis.launch.references import COMPONENT
 
@@ -24,43 +24,32 @@ _MAX_DEPTH = 40
 _LONGEST = 60
 """Characters of code that is shown in the place of a value."""
 _CONDITIONS = {"IfCondition": "if", "UnlessCondition": "unless"}
-_SUBSTITUTIONS = {
-    "LaunchConfiguration": "var",
-    "EnvironmentVariable": "env",
-    "FindPackageShare": "find-pkg-share",
-    "FindPackagePrefix": "find-pkg-prefix",
-    "ThisLaunchFileDir": "dirname",
-    "ThisLaunchFile": "filename",
-    "PathJoinSubstitution": "path-join",
-    "PythonExpression": "eval",
-    "Command": "command",
-    "FindExecutable": "find-exec",
-    "get_package_share_directory": "find-pkg-share",
+_NODE = ("pkg", "exec", "name", "namespace")
+_ATTRIBUTES = {
+    "arg": ("name", "default", "description"),
+    "group": (),
+    "include": ("file",),
+    "let": ("name", "value"),
+    "lifecycle_node": (*_NODE, "autostart"),
+    "node": _NODE,
+    "node_container": _NODE,
+    "push_ros_namespace": ("namespace",),
+    "set_env": ("name", "value"),
+    "timer": ("period",),
 }
-_NODES = ("node", "lifecycle_node", "node_container")
-_COMPONENTS = ("ComposableNode", "ComposableLifecycleNode")
-_TAKES_NAME = {
-    "LaunchConfiguration": ("var", ("variable_name",)),
-    "LaunchConfigurationEquals": ("var", ("launch_configuration_name",)),
-    "LaunchConfigurationNotEquals": ("var", ("launch_configuration_name",)),
-    "EnvironmentVariable": ("env", ("name",)),
-    "FindPackageShare": ("find-pkg-share", ("package",)),
-    "FindPackagePrefix": ("find-pkg-prefix", ("package",)),
-    "get_package_share_directory": ("find-pkg-share", ("package_name",)),
-    "get_package_share_path": ("find-pkg-share", ("package_name",)),
-    "get_package_prefix": ("find-pkg-prefix", ("package_name",)),
-}
+"""The actions that are read, and what of them."""
+_KINDS = {name: kind for name, kind in python_api.KINDS.items() if kind in _ATTRIBUTES}
+_HOLDERS = ("group", "timer")
 
 
-def read_ros2_python(source: Text, classes: PythonClasses) -> LaunchFile:
+def read_ros2_python(source: Text) -> LaunchFile:
     """What the text says of the launch file. Any text gives one."""
     python = PythonSource(source.text, source.lines)
     problems = (SyntaxProblem(*python.problem),) if python.problem is not None else ()
     comments = preflight_comments(source.text, source.lines)
     document = Document(source.path, source.text, source.digest, comments, problems, source.lines)
     whole = Span(0, len(source.text))
-    reader = _Reader(python, classes)
-    children = actions_of(reader.actions(), python, whole, classes)
+    children = actions_of(_Reader(python).actions(), python, whole)
     root = Action("launch", Span(0, 0), (), children, (), Value("", whole, (Literal("", whole),)), Span(0, 0), whole)
     return LaunchFile(source.path, 2, root, document, partial=True, named=tuple(_named(python)))
 
@@ -77,7 +66,7 @@ def _named(source: PythonSource) -> Iterator[Substitution]:
 
 def _component_in(node: ast.AST) -> tuple[str, str, ast.expr] | None:
     """`package/plugin` of a composable node, and the place of the plugin, if both are written out."""
-    if not isinstance(node, ast.Call) or last_name(node.func) not in _COMPONENTS:
+    if not isinstance(node, ast.Call) or python_api.NODES.get(last_name(node.func)) != "composable_node":
         return None
     given = {k.arg: k.value for k in node.keywords}
     package, plugin = given.get("package"), given.get("plugin")
@@ -93,10 +82,10 @@ def _name_in(node: ast.AST) -> tuple[str, str, ast.expr] | None:
     command: str | None = None
     if isinstance(node, ast.Call):
         called = last_name(node.func)
-        command, keywords = _TAKES_NAME.get(called, (None, ()))
+        command, keyword = python_api.NAMES.get(called, (None, ""))
         if called == "get" and isinstance(node.func, ast.Attribute) and _is_configurations(node.func.value):
             command = "var"
-        name = next((k.value for k in node.keywords if k.arg in keywords), node.args[0] if node.args else None)
+        name = next((k.value for k in node.keywords if k.arg == keyword), node.args[0] if node.args else None)
     elif isinstance(node, ast.Subscript) and _is_configurations(node.value):
         command, name = "var", node.slice
     if command is None or not isinstance(name, ast.Constant) or not isinstance(name.value, str):
@@ -109,13 +98,13 @@ def _is_configurations(node: ast.expr) -> bool:
 
 
 class _Reader:
-    def __init__(self, source: PythonSource, classes: PythonClasses) -> None:
-        self._source, self._classes = source, classes
+    def __init__(self, source: PythonSource) -> None:
+        self._source = source
 
     def actions(self) -> list[dict[str, Any]]:
         """All actions that are written, each once, those within others inside of them."""
         calls = [node for node in self._source.nodes if isinstance(node, ast.Call)]
-        known = [call for call in calls if last_name(call.func) in self._classes.kinds]
+        known = [call for call in calls if last_name(call.func) in _KINDS]
         known.sort(key=lambda call: (call.lineno, call.col_offset))
         inner = {id(each) for call in known for each in self._inside(call)}
         return [self._action(call, 0) for call in known if id(call) not in inner]
@@ -125,22 +114,22 @@ class _Reader:
         found: list[ast.Call] = []
         given = {k.arg: k.value for k in call.keywords}
         holder = given.get("actions", call.args[0] if call.args else None)
-        if self._classes.kinds[last_name(call.func)] not in self._classes.holders or holder is None:
+        if _KINDS[last_name(call.func)] not in _HOLDERS or holder is None:
             return found
         holder = self._source.resolved(holder)
         for each in holder.elts if isinstance(holder, (ast.List, ast.Tuple)) else ():
             inner = self._source.resolved(each)
-            if isinstance(inner, ast.Call) and last_name(inner.func) in self._classes.kinds:
+            if isinstance(inner, ast.Call) and last_name(inner.func) in _KINDS:
                 found.append(inner)
         return found
 
     def _action(self, call: ast.Call, depth: int) -> dict[str, Any]:
-        kind = self._classes.kinds[last_name(call.func)]
-        made_by = self._classes.by_kind[kind]
+        kind = _KINDS[last_name(call.func)]
+        made_by = python_api.made_by(kind)
         given = {k.arg: k.value for k in call.keywords if k.arg is not None}
-        for name, node in zip(made_by.positional, call.args, strict=False):
+        for name, node in zip(python_api.positional(made_by), call.args, strict=False):
             given.setdefault(name, node)
-        parameters = {attribute: made_by.parameter(attribute) for attribute in made_by.unrun or ()}
+        parameters = {attribute: python_api.parameter_of(made_by, attribute) for attribute in _ATTRIBUTES[kind]}
         attributes = {ours: self._value(given[theirs]) for ours, theirs in parameters.items() if theirs in given}
         if "condition" in given:
             # Taken for unknown: whether it is executed is not for us to say.
@@ -152,11 +141,11 @@ class _Reader:
         children: list[dict[str, Any]] = []
         if kind == "arg" and "choices" in given and id(call) in self._source.sure:
             children = [{"k": "choice", "a": {"value": [c]}, "c": []} for c in self._texts(given["choices"])]
-        if kind in self._classes.holders and depth < _MAX_DEPTH:
+        if kind in _HOLDERS and depth < _MAX_DEPTH:
             children = [self._action(inner, depth + 1) for inner in self._inside(call)]
         if kind == "include" and "launch_arguments" in given:
             children = self._passed(given["launch_arguments"])
-        if "parameters" in given and kind in _NODES:
+        if "parameters" in given and _ATTRIBUTES[kind][:2] == _NODE[:2]:
             children = self._parameter_files(given["parameters"])
         place = [call.lineno, call.col_offset]
         return {"k": kind, "n": last_name(call.func), "p": place, "a": attributes, "c": children}
@@ -210,13 +199,13 @@ class _Reader:
             if name == "join" and isinstance(node.func, ast.Attribute) and last_name(node.func.value) == "path":
                 words = [self._value(each, depth + 1) for each in node.args]
                 return [{"s": "path-join", "w": words, "n": name, "p": [node.lineno, node.col_offset]}]
-            if name in _SUBSTITUTIONS:
+            if name in python_api.COMMANDS:
                 arguments = [*node.args, *(k.value for k in node.keywords)]
                 if name == "PathJoinSubstitution" and arguments:
                     inner = self._source.resolved(arguments[0])
                     arguments = list(inner.elts) if isinstance(inner, (ast.List, ast.Tuple)) else arguments
                 words = [self._value(each, depth + 1) for each in arguments]
-                return [{"s": _SUBSTITUTIONS[name], "w": words, "n": name, "p": [node.lineno, node.col_offset]}]
+                return [{"s": python_api.COMMANDS[name], "w": words, "n": name, "p": [node.lineno, node.col_offset]}]
         return [_unknown(node)]
 
 

@@ -10,12 +10,12 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_api import PROCESSES
 from preflight_analysis.launch.python_source import python_source
 
-_NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 _HOLDERS = frozenset({"LaunchDescription", "append", "extend", "add_action"})
 """Calls that change nothing of a node that they get."""
-_MOST_NODES = 500
+_MOSTPROCESSES = 500
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ def made_twice(launch_file: LaunchFile) -> tuple[Twice, ...]:
         if not isinstance(function, ast.FunctionDef):
             continue
         assigned = [n.id for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
-        made = [each for each in _in_block(function.body, (), None) if _is_fixed(each.name, assigned)][:_MOST_NODES]
+        made = [each for each in _in_block(function.body, (), None) if _is_fixed(each.name, assigned)][:_MOSTPROCESSES]
         for one, other in combinations(made, 2):
             outer, inner = sorted((one, other), key=lambda each: len(each.arms))
             below = len(outer.arms) < len(inner.arms) and inner.arms[: len(outer.arms)] == outer.arms
@@ -94,7 +94,7 @@ def _nodes_in(value: ast.expr) -> Iterator[ast.Call]:
             yield from _nodes_in(each)
     elif isinstance(value, ast.Call):
         name = value.func.attr if isinstance(value.func, ast.Attribute) else getattr(value.func, "id", "")
-        if name in _NODES:
+        if name in PROCESSES:
             yield value
         elif name in _HOLDERS:
             for each in value.args:

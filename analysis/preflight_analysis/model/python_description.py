@@ -9,12 +9,11 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_api import PROCESSES
 from preflight_analysis.launch.python_source import PythonSource, last_name, python_source
 
 _MAX_DEPTH = 20
-_NODES = frozenset(
-    {"launch_ros.actions.Node", "launch_ros.actions.LifecycleNode", "launch_ros.actions.ComposableNodeContainer"}
-)
+_NODES = frozenset(f"launch_ros.actions.{name}" for name in PROCESSES)
 _DESCRIPTIONS = frozenset({"launch.LaunchDescription", "launch.launch_description.LaunchDescription"})
 _ADDS = frozenset({"add_action", "add_entity", "append", "extend"})
 _KEEP_NAMESPACE = frozenset(

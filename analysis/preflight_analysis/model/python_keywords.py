@@ -9,9 +9,9 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_api import call_named, parameters
 from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.nearest import nearest
-from preflight_analysis.tracing.launch_signatures import keywords_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,17 +36,16 @@ def _unknown(source: PythonSource) -> Iterator[UnknownKeyword]:
     for node in source.nodes if source.module is not None else ():
         if not isinstance(node, ast.Call) or id(node) not in source.sure:
             continue
-        made = source.full_name(node.func)
-        known = keywords_of(made) if made is not None else None
+        made = call_named(source.full_name(node.func) or "")
+        takes = parameters(made) if made is not None else None
         given = {keyword.arg for keyword in node.keywords}
-        if made is None or known is None or None in given:
+        if made is None or takes is None or None in given:
             continue
+        known = {each.name for each in takes}
         for keyword in node.keywords:
             name = keyword.arg or ""
             if name not in known:
                 left = known - given
                 near = nearest(name, left) or nearest(name, left, key=lambda each: each.removeprefix("node_"))
-                yield UnknownKeyword(
-                    made.rpartition(".")[2], name, near, source.keyword_span(keyword), source.whole_span(node)
-                )
+                yield UnknownKeyword(made.short_name, name, near, source.keyword_span(keyword), source.whole_span(node))
                 break

@@ -9,18 +9,6 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.python_source import PythonSource, python_source
 
-SUBSTITUTIONS = frozenset(
-    {
-        "AllSubstitution", "AndSubstitution", "AnonName", "AnySubstitution", "BooleanSubstitution", "Command",
-        "EnvironmentVariable", "EqualsSubstitution", "ExecutableInPackage", "FileContent", "FindExecutable",
-        "FindPackagePrefix", "FindPackageShare", "IfElseSubstitution", "LaunchConfiguration", "LaunchLogDir",
-        "NotEqualsSubstitution", "NotSubstitution", "OrSubstitution", "PathJoinSubstitution", "PythonExpression",
-        "TextSubstitution", "ThisLaunchFile", "ThisLaunchFileDir",
-    }
-)  # fmt: skip
-"""Classes of `launch.substitutions` and `launch_ros.substitutions`."""
-CONDITIONS = frozenset({"IfCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals", "UnlessCondition"})
-
 
 class BoundNames:
     """The names of a file, as far as it tells what they stand for: one that is bound in several places, or is an

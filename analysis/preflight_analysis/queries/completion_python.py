@@ -1,4 +1,4 @@
-"""What can be written at a cursor in a Python launch file: only in texts that are ours to know.
+"""What can be written at a cursor in a Python launch file: in texts, and as keywords of calls of launch.
 
 The names come from the same sources as in the other formats; the Python language server next door has the rest.
 """
@@ -13,6 +13,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_tree import arguments
 from preflight_analysis.launch.schema import Kind
 from preflight_analysis.queries.arguments import accepted, argument_values, resolved
+from preflight_analysis.queries.call_python import complete_keywords
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_paths import listed
 from preflight_analysis.queries.completion_values import Asked, Lookup, argument_detail, argument_doc, whole_values
@@ -46,11 +47,11 @@ def complete_python(
     """What can be written at `offset`, best first; None where it is not ours to say. As in `completion.complete`,
     `launch_file` is the text as it is now, and `analysis` may be one of an earlier text."""
     document = launch_file.document
-    if trigger not in (None, "'", '"', "/"):
+    if trigger not in (None, "'", '"', "/", "("):
         return None
-    found = place_at_python(document.text, offset)
+    found = place_at_python(document.text, offset) if trigger != "(" else None
     if found is None:
-        return None
+        return complete_keywords(document.text, offset) if trigger in (None, "(") else None
     word, kind = found.place.word, found.kind
     typed = document.text[word.start : offset]
     if kind in ("launch-file", "yaml-file", "file"):

@@ -18,7 +18,7 @@ from tree_sitter import Node
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Attribute, Element, SpannedText
 from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.ros2.actions.registry import node_classes
+from preflight_analysis.launch.python_api import NAMES, NODES
 from preflight_analysis.launch.python_source import open_brackets
 from preflight_analysis.launch.python_tree import PythonTree, arguments, called, written
 from preflight_analysis.queries.cursor import Place
@@ -50,19 +50,8 @@ _PLACES: Mapping[str, PythonKind] = {
     "plugin": "component",
     "namespace": "namespace",
 }
-_PACKAGES = {
-    "get_package_share_directory": "package_name",
-    "get_package_share_path": "package_name",
-    "get_package_prefix": "package_name",
-    "FindPackageShare": "package",
-    "FindPackagePrefix": "package",
-    "FindPackage": "package",
-}
-_USES = {
-    "LaunchConfiguration": "variable_name",
-    "LaunchConfigurationEquals": "launch_configuration_name",
-    "LaunchConfigurationNotEquals": "launch_configuration_name",
-}
+_NAMES: Mapping[str, PythonKind] = {"find-pkg-share": "package", "find-pkg-prefix": "package", "var": "used"}
+"""What is named where there would be such a substitution."""
 _CONFIGURATIONS = "launch_configurations"
 _FILES = ("launch-file", "yaml-file", "file")
 _FILE = re.compile(r"\w\.\w+\Z")
@@ -187,11 +176,12 @@ class _Reader:
         given = arguments(call)
         key = next((key for key, value in given.items() if value == string), None)
         name = called(call)
-        if name in _PACKAGES and key in ("0", _PACKAGES[name]):
-            return self._answer("package")
-        if (name in _USES and key in ("0", _USES[name])) or (key == "0" and name == "get" and _of_context(call)):
+        command, parameter = NAMES.get(name, ("", ""))
+        if command in _NAMES and key in ("0", parameter):
+            return self._answer(_NAMES[command])
+        if key == "0" and name == "get" and _of_context(call):
             return self._answer("used")
-        if name in node_classes() or "executable" in given or "plugin" in given:
+        if name in NODES or "executable" in given or "plugin" in given:
             kind = _PLACES.get(key or "")
             return self._answer(kind, self._node(call)) if kind is not None else None
         if name == "join":
@@ -204,7 +194,7 @@ class _Reader:
         names = {"package": "pkg", "executable": "exec", "plugin": "plugin", "name": "name", "namespace": "namespace"}
         attributes = [self._attribute(ours, given[theirs]) for theirs, ours in names.items() if theirs in given]
         children = [self._named("param", "name", key) for key in self._keys(given.get("parameters"))]
-        kind = node_classes().get(called(call), "node")
+        kind = NODES.get(called(call), "node")
         return self._element(kind, call, [each for each in attributes if each is not None], children)
 
     def _keys(self, node: Node | None) -> Iterator[Node]:

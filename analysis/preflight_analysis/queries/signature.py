@@ -1,44 +1,28 @@
-"""The signature of an include: the arguments that the included file takes, and which of them is being written."""
+"""The signature around a cursor: the arguments that an included file takes, in Python the parameters of a call."""
 
 from __future__ import annotations
 
 import os
 
-from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
-from preflight_analysis.findings.markdown import escaped
+from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.queries.arguments import accepted, included_file
+from preflight_analysis.queries.call_python import signature_of_call
 from preflight_analysis.queries.cursor import is_closed
 from preflight_analysis.queries.language import place_in
+from preflight_analysis.queries.signature_items import Parameter, Signature
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """An argument; `start` and `end` are where it stands in the label."""
-
-    name: str
-    doc: str
-    start: int
-    end: int
-
-
-@dataclass(frozen=True, slots=True)
-class Signature:
-    """What can be passed. `active` is the index of the argument that the cursor is in, None if in none."""
-
-    label: str
-    doc: str
-    parameters: tuple[Parameter, ...]
-    active: int | None
-
-
 def signature(analysis: Analysis, launch_file: LaunchFile, offset: int, files: Files) -> Signature | None:
-    """The signature of the `<include>` around `offset`, None where there is none or its file is not known."""
+    """The signature of the `<include>` around `offset`, in Python that of the call of launch; None where there is none,
+    or the included file is not known."""
     document = launch_file.document
+    if launch_file.is_python:
+        return signature_of_call(document.text, offset)
     place = place_in(launch_file, offset)
     if place is None:
         return None
@@ -57,7 +41,7 @@ def signature(analysis: Analysis, launch_file: LaunchFile, offset: int, files: F
     name = argument.get("name") if argument is not None else None
     written = name.value.text if name is not None else None
     active = next((n for n, parameter in enumerate(parameters) if parameter.name == written), None)
-    return Signature(f"{label})", target.path, tuple(parameters), active)
+    return Signature(f"{label})", code(target.path), tuple(parameters), active)
 
 
 def _argument_at(document: Document, include: Element, offset: int) -> Element | None:

@@ -7,6 +7,7 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.problems import BadSubstitution
+from preflight_analysis.launch.python_api import COMMANDS
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.model.parts_of_launches import is_part
@@ -18,14 +19,9 @@ from preflight_analysis.rules.rule import Rule
 _RENAMED: Mapping[int, Mapping[str, str]] = {
     1: {},
     2: {
+        **COMMANDS,
         **{"arg": "var", "find": "find-pkg-share", "optenv": "env", "env-default": "env"},
-        **{
-            "FindPackage": "find-pkg-share",
-            "FindPackageShare": "find-pkg-share",
-            "FindPackagePrefix": "find-pkg-prefix",
-        },
-        **{"LaunchConfiguration": "var", "EnvironmentVariable": "env", "PythonExpression": "eval"},
-        **{"PathJoinSubstitution": "path-join", "ThisLaunchFileDir": "dirname", "ExecutableInPackage": "exec-in-pkg"},
+        "FindPackage": "find-pkg-share",
     },
 }
 """By generation: what substitutions of ROS 1, and those of Python launch files, are called in XML and YAML of ROS 2."""

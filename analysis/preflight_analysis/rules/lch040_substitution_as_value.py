@@ -15,11 +15,12 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_api import CONDITIONS, SUBSTITUTIONS
 from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.arguments import declarations
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix, shortened
-from preflight_analysis.model.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames, bound_names
+from preflight_analysis.model.python_names import BoundNames, bound_names
 from preflight_analysis.rules.further_reading import FORMATS, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.rule import Rule
 

@@ -22,7 +22,6 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Span
 from preflight_analysis.environment.installed_paths import installed_at
 from preflight_analysis.environment.model import Package, Packages
-from preflight_analysis.evaluation.ros2.actions.registry import python_classes
 from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
 from preflight_analysis.launch.python_actions import actions_of
@@ -162,7 +161,7 @@ class _Maker:
                 continue
             told = json.loads(command.result.output) if command.result.status == "done" else {"error": "not run"}
             if told.get("error") is None:
-                return actions_of(told["actions"], PythonSource("", LineIndex("")), Span(0, 0), python_classes())
+                return actions_of(told["actions"], PythonSource("", LineIndex("")), Span(0, 0))
             why = told["error"].get("message", "") if isinstance(told["error"], dict) else command.result.reason
             print(f"  {path.removeprefix(str(self._laid.folder))}: {why}", flush=True)
         self.left_out["not run to its end"] += 1

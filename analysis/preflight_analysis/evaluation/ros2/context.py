@@ -17,7 +17,6 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.variables import copied
 from preflight_analysis.evaluation.before import Before, Question
 from preflight_analysis.evaluation.resolved import Resolved
-from preflight_analysis.launch.python_classes import PythonClasses
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,9 +87,7 @@ class Context:
     """The state of one launch, or of a part of it by itself: that begins with what is `before` it and notes what it
     reads of that."""
 
-    def __init__(self, environment: Mapping[str, str], python: PythonClasses) -> None:
-        self.python = python
-        """What the answers of runs are read by."""
+    def __init__(self, environment: Mapping[str, str]) -> None:
         self.initial_environment = environment
         self.round: dict[str, str] = {}
         """What the variables of the loops around are in this round."""
@@ -113,7 +110,7 @@ class Context:
     def part(self, before: Before) -> Context:
         """The context of a part that comes next. This one is not changed, and must not be before that has ended."""
         part = Context.__new__(Context)
-        part.python, part.initial_environment, part._at_first = self.python, self.initial_environment, self._at_first
+        part.initial_environment, part._at_first = self.initial_environment, self._at_first
         scope = self._scope.copy()
         scope.remaps = [*scope.remaps] if scope.remaps is not None else None
         scope.params = [*scope.params] if scope.params is not None else None

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute, Tag, Taken
 
 PARAM_TYPES = ("str", "bool", "float", "int", "list_of_str", "list_of_bool", "list_of_float", "list_of_int", "yaml")
@@ -29,12 +28,8 @@ class Entity:
     kind: str
     tag: Tag | None
     """What XML and YAML files may say of it, without the actions inside; None: only Python launch files have it."""
-    python: tuple[PythonClass, ...]
-    """The classes of `launch` and `launch_ros` that make it; empty: it is no object of its own."""
     holds_actions: bool = False
     """Whether it may have actions inside, which count as if they stood in the file itself."""
-    parameter: str | None = None
-    """The parameter of another one's Python class that gives it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,7 +14,7 @@ from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
-from preflight_analysis.evaluation.ros2.actions.registry import actions, parts, python_classes, tags
+from preflight_analysis.evaluation.ros2.actions.registry import actions, parts, tags
 from preflight_analysis.evaluation.ros2.bridges import note_files_of_bridges
 from preflight_analysis.evaluation.ros2.check_language import check_language_ros2
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
@@ -90,7 +90,7 @@ def evaluate_ros2(
 
 
 def _launch(path: str, args: Mapping[str, str], variables: Mapping[str, str], state: State) -> None:
-    context = Context(state.environment.variables, python_classes())
+    context = Context(state.environment.variables)
     for name, value in args.items():
         context.set(name, Resolved(value), None)
     for name, value in variables.items():

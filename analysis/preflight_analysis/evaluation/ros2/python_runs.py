@@ -43,7 +43,6 @@ from preflight_analysis.launch.configurations import substitutions_of
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.launch.python_actions import actions_of
-from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 
 MARK = "\0launch file "
@@ -122,7 +121,7 @@ def recorded(
         del state.unknowns[unknowns:]
     if reply is None or launch_file.root is None:
         return launch_file, None
-    children = _actions(reply.output, run.source, whole, context.python)
+    children = _actions(reply.output, run.source, whole)
     for name, value in _variables(reply).items():
         context.set_variable(name, value)
     partly = bool(reply.values.get("unread"))
@@ -310,7 +309,7 @@ def called(state: Collector, context: Context, place: Place, code: OwnCode) -> A
         return Answer(place, text=text) if isinstance(text, str) else None
     changed, removed = _texts(reply.values.get("set")), reply.values.get("unset")
     gone = tuple(each for each in removed if isinstance(each, str)) if isinstance(removed, list) else ()
-    actions = _actions(reply.output, run.source, at, context.python)
+    actions = _actions(reply.output, run.source, at)
     return Answer(replace(place, run=run), actions, None, changed, gone, _variables(reply))
 
 
@@ -423,9 +422,9 @@ def _read(output: str) -> Any:
 
 
 @lru_cache(maxsize=256)
-def _actions(output: str, source: PythonSource, around: Span, python: PythonClasses) -> tuple[Action, ...]:
+def _actions(output: str, source: PythonSource, around: Span) -> tuple[Action, ...]:
     """The actions of an answer."""
-    return actions_of(_read(output).get("actions"), source, around, python)
+    return actions_of(_read(output).get("actions"), source, around)
 
 
 def _missed(state: Collector, context: Context, place: Place, run: PythonRun, missed: object, origin: Origin) -> None:

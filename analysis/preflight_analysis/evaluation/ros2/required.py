@@ -21,7 +21,6 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import Action, LaunchFile, Value
-from preflight_analysis.launch.python_classes import NO_CLASSES
 
 
 def check_required(walk: Walk, launch_file: LaunchFile, passed: list[str], include: Origin | None) -> None:
@@ -98,7 +97,7 @@ def _path_without_context(db: Database, within: Surroundings, value: Value | Non
 def _path(within: Surroundings, value: Value) -> str | None:
     """The file that a value leads to that asks for no launch configuration."""
     quiet = State(within)
-    empty, nowhere = Context(within.environment.variables, NO_CLASSES), Place("", LineIndex(""), ())
+    empty, nowhere = Context(within.environment.variables), Place("", LineIndex(""), ())
     result = Performer(quiet, empty, nowhere).value(value)
     if result.known:
         return quiet.located(os.path.normpath(os.path.join(within.cwd, result.text)))

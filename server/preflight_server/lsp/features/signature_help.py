@@ -1,13 +1,12 @@
-"""`textDocument/signatureHelp`: the arguments of an include."""
+"""`textDocument/signatureHelp`: the arguments of an include, the parameters of a call of launch in Python."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
-from preflight_analysis.findings.markdown import code
-from preflight_analysis.queries.signature import Parameter, Signature
 from preflight_analysis.queries.signature import signature as query
+from preflight_analysis.queries.signature_items import Parameter, Signature
 
 from preflight_server.lsp.markup import markup
 from preflight_server.lsp.positions import Positions
@@ -29,7 +28,7 @@ def _help(found: Signature, options: types.ClientSignatureInformationOptions) ->
     parameters = [parameter(each) for each in found.parameters]
     # Without support for "none", one past the end is none.
     active = found.active if found.active is not None else len(parameters)
-    doc = markup(code(found.doc), options.documentation_format)
+    doc = markup(found.doc, options.documentation_format)
     return types.SignatureHelp([types.SignatureInformation(found.label, doc, parameters)], 0, active)
 
 
@@ -38,11 +37,11 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(
         types.TEXT_DOCUMENT_SIGNATURE_HELP,
-        types.SignatureHelpOptions(trigger_characters=["<", '"', "'"], retrigger_characters=[" ", ">"]),
+        types.SignatureHelpOptions(trigger_characters=["<", '"', "'", "(", ","], retrigger_characters=[" ", ">", ")"]),
     )
     async def signature_help(ls: PreflightServer, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
         session = ls.session_of(params.text_document.uri)
-        latest = await session.latest(params.text_document.uri) if session else None
+        latest = await session.latest(params.text_document.uri, python=True) if session else None
         if session is None or latest is None:
             return None
         (launch_file, analysis), workspace = latest, await session.workspace()

@@ -12,7 +12,6 @@ from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.evaluation.tree import Arg, Use
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_actions import OF_CODE
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -72,15 +71,6 @@ ENTITIES = (
             named_by=("name",),
             detail=("value", "default"),
         ),
-        python=(
-            PythonClass(
-                "launch.actions.DeclareLaunchArgument",
-                ("name",),
-                {"default": "default_value"},
-                unrun=("name", "default", "description"),
-            ),
-        ),
-        parameter="launch_arguments",
         evaluate=evaluate,
         offered=30,
         configures=True,
@@ -92,8 +82,6 @@ ENTITIES = (
             Attribute("value", "The value.", required=True, taken="verbatim"),
             named_by=("value",),
         ),
-        python=(),
-        parameter="choices",
         of=("arg",),
     ),
 )

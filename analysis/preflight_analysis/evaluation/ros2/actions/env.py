@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.entity import VARIABLE, action_tag, flag
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, is_set
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -58,7 +57,6 @@ ENTITIES = (
             named_by=("name",),
             detail=("value",),
         ),
-        python=(PythonClass("launch.actions.SetEnvironmentVariable", ("name", "value"), unrun=("name", "value")),),
         evaluate=set_env,
         offered=200,
     ),
@@ -67,7 +65,6 @@ ENTITIES = (
         tag=action_tag(
             "Removes an environment variable for what comes later in this group.", VARIABLE, named_by=("name",)
         ),
-        python=(PythonClass("launch.actions.UnsetEnvironmentVariable", ("name",)),),
         evaluate=unset_env,
         offered=210,
     ),
@@ -82,14 +79,12 @@ ENTITIES = (
             named_by=("name",),
             detail=("value",),
         ),
-        python=(PythonClass("launch.actions.AppendEnvironmentVariable", ("name", "value", "prepend", "separator")),),
         evaluate=append_env,
         offered=220,
     ),
     LaunchAction(
         kind="reset_env",
         tag=action_tag("Takes back all changes of the environment."),
-        python=(PythonClass("launch.actions.ResetEnvironment"),),
         evaluate=reset_env,
         offered=225,
     ),

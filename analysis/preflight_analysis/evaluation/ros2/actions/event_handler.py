@@ -6,7 +6,6 @@ from preflight_analysis.evaluation.ros2.entity import Part
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 
 
 def register(walk: Walk, performer: Performer, action: Action) -> None:
@@ -27,14 +26,12 @@ ENTITIES = (
     LaunchAction(
         kind="event_handler",
         tag=None,
-        python=(PythonClass("launch.actions.RegisterEventHandler", ("event_handler",)),),
         evaluate=register,
     ),
     LaunchAction(
         kind="unregister_event_handler",
         tag=None,
-        python=(PythonClass("launch.actions.UnregisterEventHandler", ("event_handler",)),),
         evaluate=unregister,
     ),
-    Part(kind="function", tag=None, python=(), of=("event_handler",)),
+    Part(kind="function", tag=None, of=("event_handler",)),
 )

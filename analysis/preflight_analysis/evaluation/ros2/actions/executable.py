@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.processes import PROCESS
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 _NODES = ("node", "lifecycle_node", "node_container")
@@ -31,10 +30,6 @@ ENTITIES = (
             named_by=("name", "cmd"),
             starts=True,
         ),
-        python=(
-            PythonClass("launch.actions.ExecuteProcess", keywords={"launch-prefix": "prefix", "argument": "cmd"}),
-            PythonClass("launch.actions.ExecuteLocal"),
-        ),
         evaluate=evaluate,
         offered=150,
         starts_process=True,
@@ -49,11 +44,9 @@ ENTITIES = (
             named_by=("name",),
             detail=("value",),
         ),
-        python=(),
-        parameter="additional_env",
         of=(*_NODES, "executable"),
     ),
-    Part(kind="argument", tag=None, python=(), parameter="arguments", of=(*_NODES, "executable")),
-    Part(kind="ros_argument", tag=None, python=(), of=_NODES),
-    Part(kind="on_exit", tag=None, python=(), of=(*_NODES, "executable")),
+    Part(kind="argument", tag=None, of=(*_NODES, "executable")),
+    Part(kind="ros_argument", tag=None, of=_NODES),
+    Part(kind="on_exit", tag=None, of=(*_NODES, "executable")),
 )

@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.entity import action_tag, flag
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, is_set
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 
 
 def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
@@ -43,7 +42,6 @@ ENTITIES = (
             children=("keep",),
             starts=True,
         ),
-        python=(PythonClass("launch.actions.GroupAction", ("actions",), unrun=()),),
         evaluate=evaluate,
         offered=50,
         holds_actions=True,

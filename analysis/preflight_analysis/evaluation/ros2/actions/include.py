@@ -27,7 +27,6 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.configurations import IMPLICIT, Names, configurations_of, names_in_code
 from preflight_analysis.launch.model import Action, LaunchFile, Value
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.read import read_launch
 from preflight_analysis.launch.schema import Attribute
 from preflight_analysis.launch.substitutions_ros2 import nested
@@ -183,7 +182,7 @@ def _configured(walk: Walk, path: str) -> LaunchFile | None:
     if names:
         at = Location.of_file(path + ".in")
         walk.state.note_unknown(", ".join(names), "the build fills it in", at)
-    return read_launch(_filled_in(path, template.text), lambda: walk.context.python, 2)
+    return read_launch(_filled_in(path, template.text), 2)
 
 
 @lru_cache(maxsize=64)
@@ -202,14 +201,6 @@ ENTITIES = (
             named_by=("file",),
             starts=True,
         ),
-        python=(
-            PythonClass(
-                "launch.actions.IncludeLaunchDescription",
-                ("launch_description_source",),
-                {"file": "launch_description_source"},
-                unrun=("file",),
-            ),
-        ),
         evaluate=evaluate,
         offered=20,
         configures=True,
@@ -218,10 +209,9 @@ ENTITIES = (
     LaunchAction(
         kind="inline",
         tag=None,
-        python=(PythonClass("launch.LaunchDescription", ("initial_entities",)),),
         evaluate=evaluate_inline,
         holds_actions=True,
         configures=True,
     ),
-    Part(kind="arg_passed", tag=None, python=(), parameter="launch_arguments", of=("inline",)),
+    Part(kind="arg_passed", tag=None, of=("inline",)),
 )

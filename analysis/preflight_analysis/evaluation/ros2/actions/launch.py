@@ -17,7 +17,6 @@ ENTITIES = (
                 taken="verbatim",
             ),
         ),
-        python=(),
         of=(),
         holds_actions=True,
     ),

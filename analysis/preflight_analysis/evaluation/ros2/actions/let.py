@@ -7,7 +7,6 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -40,7 +39,6 @@ ENTITIES = (
             named_by=("name",),
             detail=("value",),
         ),
-        python=(PythonClass("launch.actions.SetLaunchConfiguration", ("name", "value"), unrun=("name", "value")),),
         evaluate=evaluate,
         offered=40,
         configures=True,
@@ -48,7 +46,6 @@ ENTITIES = (
     LaunchAction(
         kind="unlet",
         tag=None,
-        python=(PythonClass("launch.actions.UnsetLaunchConfiguration", ("name",)),),
         evaluate=unset,
     ),
 )

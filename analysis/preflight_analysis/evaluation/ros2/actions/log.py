@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from preflight_analysis.evaluation.ros2.entity import action_tag
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, only_read
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 _MESSAGE = Attribute("message", "The message.", "prose", required=True)
@@ -14,7 +13,7 @@ _CLASSES = ("LogInfo", "Log", "LogDebug", "LogWarning", "LogError")
 
 def _of_a_level(kind: str, doc: str, offered: int) -> LaunchAction:
     tag = action_tag(doc, _MESSAGE, named_by=("message",))
-    return LaunchAction(kind=kind, tag=tag, python=(), evaluate=only_read, offered=offered)
+    return LaunchAction(kind=kind, tag=tag, evaluate=only_read, offered=offered)
 
 
 ENTITIES = (
@@ -26,7 +25,6 @@ ENTITIES = (
             Attribute("level", "Of a launch newer than 3.8.", "text", _LEVELS),
             named_by=("message",),
         ),
-        python=tuple(PythonClass(f"launch.actions.{name}", keywords={"message": "msg"}) for name in _CLASSES),
         evaluate=only_read,
         offered=240,
     ),

@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.processes import PROCESS
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 NODE = (
@@ -48,7 +47,6 @@ ENTITIES = (
             named_by=("name", "exec"),
             starts=True,
         ),
-        python=(PythonClass("launch_ros.actions.Node", keywords=KEYWORDS, unrun=UNRUN),),
         evaluate=evaluate,
         offered=10,
         starts_process=True,
@@ -64,7 +62,6 @@ ENTITIES = (
             named_by=("name", "exec"),
             starts=True,
         ),
-        python=(PythonClass("launch_ros.actions.LifecycleNode", keywords=KEYWORDS, unrun=(*UNRUN, "autostart")),),
         evaluate=evaluate_lifecycle,
         offered=140,
         starts_process=True,

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from preflight_analysis.evaluation.ros2.actions.node import CHILDREN, KEYWORDS, NAMED_NODE, UNRUN
+from preflight_analysis.evaluation.ros2.actions.node import CHILDREN, NAMED_NODE
 from preflight_analysis.evaluation.ros2.entity import NAMESPACE, Part, action_tag, part_tag
 from preflight_analysis.evaluation.ros2.nodes import evaluate_composable, evaluate_node, namespace_of
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -46,7 +45,6 @@ ENTITIES = (
             named_by=("name", "exec"),
             starts=True,
         ),
-        python=(PythonClass("launch_ros.actions.ComposableNodeContainer", keywords=KEYWORDS, unrun=UNRUN),),
         evaluate=evaluate,
         offered=120,
         starts_process=True,
@@ -61,12 +59,11 @@ ENTITIES = (
             named_by=("target",),
             starts=True,
         ),
-        python=(PythonClass("launch_ros.actions.LoadComposableNodes", keywords={"target": "target_container"}),),
         evaluate=load,
         offered=130,
         is_part=True,
     ),
-    Part(kind="target", tag=None, python=(), parameter="target_container", of=("load_composable_node",)),
+    Part(kind="target", tag=None, of=("load_composable_node",)),
     Part(
         kind="composable_node",
         tag=action_tag(
@@ -79,10 +76,6 @@ ENTITIES = (
             named_by=("name", "plugin"),
             starts=True,
         ),
-        python=(
-            PythonClass("launch_ros.descriptions.ComposableNode", keywords={"pkg": "package"}),
-            PythonClass("launch_ros.descriptions.ComposableLifecycleNode", keywords={"pkg": "package"}),
-        ),
         of=("node_container", "load_composable_node"),
     ),
     Part(
@@ -94,8 +87,7 @@ ENTITIES = (
             named_by=("name",),
             detail=("value",),
         ),
-        python=(),
         of=("composable_node",),
     ),
-    Part(kind="extra_dict", tag=None, python=(), parameter="extra_arguments", of=("composable_node",)),
+    Part(kind="extra_dict", tag=None, of=("composable_node",)),
 )

@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 
 
 def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
@@ -50,22 +49,16 @@ ENTITIES = (
     LaunchAction(
         kind="opaque",
         tag=None,
-        python=(
-            PythonClass("launch.actions.OpaqueFunction"),
-            PythonClass("launch.actions.ForLoop", ("length",)),
-            PythonClass("launch.actions.ForEach", ("input_values",)),
-        ),
         evaluate=evaluate,
         configures=True,
     ),
     LaunchAction(
         kind="opaque_coroutine",
         tag=None,
-        python=(PythonClass("launch.actions.OpaqueCoroutine"),),
         evaluate=evaluate_coroutine,
     ),
-    LaunchAction(kind="unknown", tag=None, python=(), evaluate=only_read),
-    LaunchAction(kind="stand_in", tag=None, python=(), evaluate=evaluate_stand_in),
+    LaunchAction(kind="unknown", tag=None, evaluate=only_read),
+    LaunchAction(kind="stand_in", tag=None, evaluate=evaluate_stand_in),
     # `launch_testing` starts no node.
-    LaunchAction(kind="test", tag=None, python=(), evaluate=None),
+    LaunchAction(kind="test", tag=None, evaluate=None),
 )

@@ -27,10 +27,8 @@ ENTITIES = (
             named_by=("name", "from"),
             detail=("value",),
         ),
-        python=(),
-        parameter="parameters",
         of=(*NODES, "param", "set_parameter"),
     ),
-    Part(kind="param_dict", tag=None, python=(), parameter="parameters", of=NODES),
-    Part(kind="item", tag=None, python=(), of=("param",)),
+    Part(kind="param_dict", tag=None, of=NODES),
+    Part(kind="item", tag=None, of=("param",)),
 )

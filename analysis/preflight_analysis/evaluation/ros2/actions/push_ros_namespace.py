@@ -7,7 +7,6 @@ from preflight_analysis.evaluation.ros2.nodes import namespace_of
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 
 
 def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
@@ -24,12 +23,8 @@ ENTITIES = (
     LaunchAction(
         kind="push_ros_namespace",
         tag=_TAG,
-        python=(
-            PythonClass("launch_ros.actions.PushROSNamespace", ("namespace",), unrun=("namespace",)),
-            PythonClass("launch_ros.actions.PushRosNamespace", ("namespace",), unrun=("namespace",)),
-        ),
         evaluate=evaluate,
         offered=60,
     ),
-    LaunchAction(kind="push-ros-namespace", tag=_TAG, python=(), evaluate=evaluate, offered=70),
+    LaunchAction(kind="push-ros-namespace", tag=_TAG, evaluate=evaluate, offered=70),
 )

@@ -12,7 +12,6 @@ from types import ModuleType
 import preflight_analysis.evaluation.ros2.actions as package
 from preflight_analysis.evaluation.ros2.entity import Entity, Part
 from preflight_analysis.evaluation.ros2.walk import LaunchAction
-from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.schema import Tag
 
 
@@ -52,25 +51,6 @@ def tags() -> Mapping[str, Tag]:
             starts = entity.tag.starts or entity.holds_actions
             found[entity.kind] = replace(entity.tag, children=(*entity.tag.children, *inside), starts=starts)
     return found
-
-
-@cache
-def python_classes() -> PythonClasses:
-    """What readers of Python launch files have to know."""
-    made = [(entity.kind, each) for entity in entities().values() for each in entity.python]
-    return PythonClasses(
-        dict(reversed(made)),
-        {each.short_name: kind for kind, each in made if each.unrun is not None},
-        {e.kind: e.parameter for e in entities().values() if e.parameter is not None},
-        frozenset(e.kind for e in entities().values() if e.holds_actions),
-    )
-
-
-@cache
-def node_classes() -> Mapping[str, str]:
-    """The kinds of what starts nodes, by the names of their Python classes."""
-    nodes = [entity for entity in entities().values() if entity.tag is not None and "pkg" in entity.tag.attributes]
-    return {each.short_name: entity.kind for entity in nodes for each in entity.python}
 
 
 def _modules() -> Iterator[ModuleType]:

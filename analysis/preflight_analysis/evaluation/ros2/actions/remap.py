@@ -15,8 +15,6 @@ ENTITIES = (
             named_by=("from",),
             detail=("to",),
         ),
-        python=(),
-        parameter="remappings",
         of=("node", "lifecycle_node", "node_container", "composable_node"),
     ),
 )

@@ -10,7 +10,6 @@ from preflight_analysis.evaluation.ros2.entity import CONFIGURATION_NAME, Part, 
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -34,7 +33,6 @@ ENTITIES = (
     LaunchAction(
         kind="reset",
         tag=action_tag("Forgets all launch configurations but those to keep.", children=("keep",)),
-        python=(PythonClass("launch.actions.ResetLaunchConfigurations", ("launch_configurations",)),),
         evaluate=evaluate,
         offered=230,
     ),
@@ -47,7 +45,6 @@ ENTITIES = (
             named_by=("name",),
             detail=("value",),
         ),
-        python=(),
         of=("group", "reset"),
     ),
 )

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 
 
 def push_configurations(walk: Walk, performer: Performer, action: Action) -> None:
@@ -42,25 +41,21 @@ ENTITIES = (
     LaunchAction(
         kind="push_configurations",
         tag=None,
-        python=(PythonClass("launch.actions.PushLaunchConfigurations"),),
         evaluate=push_configurations,
     ),
     LaunchAction(
         kind="pop_configurations",
         tag=None,
-        python=(PythonClass("launch.actions.PopLaunchConfigurations"),),
         evaluate=pop_configurations,
     ),
     LaunchAction(
         kind="push_env",
         tag=None,
-        python=(PythonClass("launch.actions.PushEnvironment"),),
         evaluate=push_environment,
     ),
     LaunchAction(
         kind="pop_env",
         tag=None,
-        python=(PythonClass("launch.actions.PopEnvironment"),),
         evaluate=pop_environment,
     ),
 )

@@ -9,7 +9,6 @@ from preflight_analysis.evaluation.ros2.python_params import python_value
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -48,7 +47,6 @@ ENTITIES = (
             named_by=("name",),
             detail=("value",),
         ),
-        python=(PythonClass("launch_ros.actions.SetParameter", ("name", "value")),),
         evaluate=evaluate,
         offered=90,
     ),
@@ -59,7 +57,6 @@ ENTITIES = (
             Attribute("filename", "The YAML file.", "yaml-file", required=True),
             named_by=("filename",),
         ),
-        python=(PythonClass("launch_ros.actions.SetParametersFromFile", ("filename",)),),
         evaluate=evaluate_file,
         offered=100,
     ),

@@ -7,7 +7,6 @@ from preflight_analysis.evaluation.ros2.entity import action_tag
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -30,7 +29,6 @@ ENTITIES = (
             named_by=("from",),
             detail=("to",),
         ),
-        python=(PythonClass("launch_ros.actions.SetRemap", ("src", "dst"), {"from": "src", "to": "dst"}),),
         evaluate=evaluate,
         offered=80,
     ),

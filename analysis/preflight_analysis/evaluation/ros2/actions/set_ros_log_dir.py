@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.entity import action_tag
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -30,7 +29,6 @@ ENTITIES = (
             Attribute("new_log_dir", "The folder.", "file", required=True),
             named_by=("new_log_dir",),
         ),
-        python=(PythonClass("launch_ros.actions.SetROSLogDir", ("new_log_dir",)),),
         evaluate=evaluate,
         offered=300,
     ),

@@ -7,7 +7,6 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.problems import BadValue
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 
@@ -29,7 +28,6 @@ ENTITIES = (
             Attribute("value", "true or false.", "condition", ("true", "false"), required=True),
             named_by=("value",),
         ),
-        python=(PythonClass("launch_ros.actions.SetUseSimTime", ("value",)),),
         evaluate=evaluate,
         offered=110,
     ),

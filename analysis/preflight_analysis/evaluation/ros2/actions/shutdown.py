@@ -8,7 +8,6 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
 from preflight_analysis.evaluation.tree import StateChange
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 _TRANSITIONS = {"1": "configure", "2": "cleanup", "3": "activate", "4": "deactivate"}
@@ -48,17 +47,15 @@ ENTITIES = (
     LaunchAction(
         kind="shutdown",
         tag=action_tag("Ends the launch.", Attribute("reason", "Why, for the log.", "prose"), named_by=("reason",)),
-        python=(PythonClass("launch.actions.Shutdown"),),
         evaluate=only_read,
         offered=290,
     ),
     # Handlers wait for it; what they start is deferred.
-    LaunchAction(kind="emit_event", tag=None, python=(PythonClass("launch.actions.EmitEvent"),), evaluate=emit),
+    LaunchAction(kind="emit_event", tag=None, evaluate=emit),
     LaunchAction(
         kind="lifecycle_transition",
         tag=None,
-        python=(PythonClass("launch_ros.actions.LifecycleTransition"),),
         evaluate=change,
     ),
-    Part(kind="asked", tag=None, python=(), of=("lifecycle_transition",)),
+    Part(kind="asked", tag=None, of=("lifecycle_transition",)),
 )

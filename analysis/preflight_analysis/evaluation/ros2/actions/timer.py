@@ -6,7 +6,6 @@ from preflight_analysis.evaluation.ros2.entity import action_tag, flag
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
 _PERIOD = Attribute("period", "Seconds to wait.", "number", required=True, taken="performed")
@@ -26,11 +25,6 @@ ENTITIES = (
             flag("cancel_on_shutdown", "Whether a shutdown ends the wait.", "true", taken="performed"),
             named_by=("period",),
         ),
-        python=(
-            PythonClass("launch.actions.TimerAction", unrun=("period",)),
-            PythonClass("launch_ros.actions.ROSTimer"),
-            PythonClass("launch_ros.actions.RosTimer"),
-        ),
         evaluate=evaluate,
         offered=160,
         holds_actions=True,
@@ -38,7 +32,6 @@ ENTITIES = (
     LaunchAction(
         kind="ros_timer",
         tag=action_tag("Executes what is inside after some time of the ROS clock.", _PERIOD, named_by=("period",)),
-        python=(),
         evaluate=evaluate,
         offered=170,
         holds_actions=True,

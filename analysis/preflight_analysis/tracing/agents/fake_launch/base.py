@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import collections.abc
+import functools
 import itertools
 import os
 import sys
-from typing import Any, Iterable, Optional
+import types
+from typing import TYPE_CHECKING, Any, Iterable, Optional
 
 from ..anything import Anything, marked, unknown_text
+from . import api
 from .answers import Answers
 
 OURS = os.path.dirname(os.path.abspath(__file__))
@@ -17,6 +20,7 @@ _STANDARD_LIBRARY = os.path.dirname(os.path.abspath(os.__file__)) + os.sep
 _STEPS = 200
 """How far up the stack to look for the launch file."""
 _PARTS = 10_000
+_PACKAGE = __name__.rpartition(".")[0]
 
 
 class NotHereError(RuntimeError):
@@ -151,10 +155,32 @@ def caller() -> Any:
 
 
 class Made:
-    """Whatever remembers where it was made."""
+    """Whatever remembers where it was made.
+
+    What `api` declares gets its `__init__` from there. That hands what is given to `preflight_take` of the same class,
+    with what is left for the class above; where the class has none, what is given is kept.
+    """
 
     preflight_id = 0
     preflight_place: Optional[list[int]] = None
+    preflight_call = api.Call("")
+    preflight_given: dict[str, Any] = {}
+    """What was kept, by the parameters."""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *args: Any, **kwargs: Any) -> None: ...
+
+    def __init_subclass__(cls, declared: str = "", **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        call = api.BY_SHORT_NAME.get(cls.__name__) if cls.__module__.startswith(_PACKAGE) else None
+        if call is not None:
+            cls.preflight_call = call = next((each for each in api.CALLS if each.name == declared), call)
+            if not call.inherits:
+                _declare(cls, call)
+
+    def preflight_keep(self, given: dict[str, Any]) -> None:
+        self.preflight_given = {**self.preflight_given, **{name: _kept(value) for name, value in given.items()}}
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Any:
         self = super().__new__(cls)
@@ -168,9 +194,42 @@ class Made:
         return f"<{type(self).__name__} object>"
 
 
+def _declare(cls: Any, call: api.Call) -> None:
+    """Give a class the `__init__` that is declared, by a `def`: so Python says what is wrong with a call."""
+    take = vars(cls).get("preflight_take")
+    more = call.takes.partition("**")[2]
+
+    def made(self: Any, given: dict[str, Any]) -> None:
+        del given["self"]
+        left = given.pop(more, None)
+        if take is not None:
+            take(self, types.SimpleNamespace(**given), left)
+            return
+        if left is not None:
+            super(cls, self).__init__(**left)
+        self.preflight_keep(given)
+
+    names: dict[str, Any] = {"made": made, "__name__": cls.__module__}
+    exec(compile(f"def __init__(self, {call.takes}): made(self, locals())", __file__, "exec"), names)  # noqa: S102
+    cls.__init__ = init = names["__init__"]
+    init.__qualname__ = f"{cls.__name__}.__init__"
+    if take is None:
+        for name in init.__code__.co_varnames[1 : init.__code__.co_argcount + init.__code__.co_kwonlyargcount]:
+            setattr(cls, name, property(functools.partial(_given, name)))
+
+
+def _given(name: str, made: Any) -> Any:
+    return made.preflight_given[name]
+
+
+def _kept(value: Any) -> Any:
+    is_plain = value is None or isinstance(value, (bool, int, float))
+    return value if is_plain else normalize_to_list_of_substitutions(value)
+
+
 def ours(cls: type) -> type:
     """The class of this package that a class is, or is made from."""
-    return next(c for c in cls.__mro__ if c.__module__.startswith(__name__.rpartition(".")[0]))
+    return next(c for c in cls.__mro__ if c.__module__.startswith(_PACKAGE))
 
 
 def overrides(thing: Any, method: str) -> bool:
@@ -207,9 +266,8 @@ class Substitution(Made):
 
 
 class TextSubstitution(Substitution):
-    def __init__(self, *, text: str) -> None:
-        if isinstance(text, Anything):
-            text = str(text)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        text = str(given.text) if isinstance(given.text, Anything) else given.text
         if not isinstance(text, str):
             raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
         self.__text = text
@@ -229,8 +287,8 @@ SomeSubstitutionsType_types_tuple = (str, Substitution, collections.abc.Iterable
 
 
 class Condition(Made):
-    def __init__(self, *, predicate: Any = None) -> None:
-        self._predicate = predicate
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._predicate = given.predicate
 
     def describe(self) -> str:
         return type(self).__name__
@@ -242,8 +300,8 @@ class Condition(Made):
 
 
 class Action(LaunchDescriptionEntity):
-    def __init__(self, *, condition: Optional[Condition] = None) -> None:
-        self.__condition = condition
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.__condition: Optional[Condition] = given.condition
 
     @staticmethod
     def parse(entity: Any, parser: Any) -> Any:
@@ -262,11 +320,16 @@ class Action(LaunchDescriptionEntity):
         context.preflight_executed.append(self)
         return None
 
+    def preflight_serialize(self, t: Any) -> None:
+        names = {parameter: attribute for attribute, parameter in self.preflight_call.attributes.items()}
+        for name, value in self.preflight_given.items():
+            t.attribute(names.get(name, name), value)
+
 
 class LaunchDescription(LaunchDescriptionEntity):
-    def __init__(self, initial_entities: Optional[Iterable[Any]] = None, *, deprecated_reason: Any = None) -> None:
-        self.__entities = list(initial_entities) if initial_entities is not None else []
-        self.__deprecated_reason = deprecated_reason
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.__entities = list(given.initial_entities) if given.initial_entities is not None else []
+        self.__deprecated_reason = given.deprecated_reason
 
     def visit(self, context: Any) -> Any:
         return self.__entities
@@ -276,6 +339,9 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[Any]:
         return [e for e in self.__entities if type(e).__name__ == "DeclareLaunchArgument"]
+
+    def preflight_serialize(self, t: Any) -> None:
+        t.entities(self.entities)
 
     @property
     def entities(self) -> list[Any]:

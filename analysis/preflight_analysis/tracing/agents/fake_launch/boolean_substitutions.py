@@ -10,72 +10,49 @@ from .worded import Worded, is_scalar, truth
 
 
 class IfElseSubstitution(Worded):
-    command = "if"
-
-    def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        if if_value == else_value == "":
+    def preflight_take(self, given: Any, left: Any) -> None:
+        if given.if_value == given.else_value == "":
             raise RuntimeError("One of if_value and else_value must be specified")
-        self._words(condition, if_value, else_value)
+        self._words(given.condition, given.if_value, given.else_value)
 
     def perform(self, context: LaunchContext) -> str:
         return self._text(context, 1 if truth(self._text(context, 0)) else 2)
 
 
 class NotSubstitution(Worded):
-    command = "not"
-
-    def __init__(self, value: Any) -> None:
-        self._words(value)
-
     def perform(self, context: LaunchContext) -> str:
         return str(not truth(self._text(context, 0))).lower()
 
 
 class AndSubstitution(Worded):
-    command = "and"
-
-    def __init__(self, left: Any, right: Any) -> None:
-        self._words(left, right)
-
     def perform(self, context: LaunchContext) -> str:
         return str(truth(self._text(context, 0)) and truth(self._text(context, 1))).lower()
 
 
 class OrSubstitution(Worded):
-    command = "or"
-
-    def __init__(self, left: Any, right: Any) -> None:
-        self._words(left, right)
-
     def perform(self, context: LaunchContext) -> str:
         return str(truth(self._text(context, 0)) or truth(self._text(context, 1))).lower()
 
 
 class AnySubstitution(Worded):
-    command = "any"
-
-    def __init__(self, *args: Any) -> None:
-        self._words(*args)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._words(*given.args)
 
     def perform(self, context: LaunchContext) -> str:
         return str(any(truth(self._text(context, i)) for i in range(len(self.words)))).lower()
 
 
 class AllSubstitution(Worded):
-    command = "all"
-
-    def __init__(self, *args: Any) -> None:
-        self._words(*args)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._words(*given.args)
 
     def perform(self, context: LaunchContext) -> str:
         return str(all(truth(self._text(context, i)) for i in range(len(self.words)))).lower()
 
 
 class EqualsSubstitution(Worded):
-    command = "equals"
-
-    def __init__(self, left: Any, right: Any) -> None:
-        self._words(_as_text(left), _as_text(right))
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._words(_as_text(given.left), _as_text(given.right))
 
     def _equal(self, context: LaunchContext) -> bool:
         left, right = self._text(context, 0), self._text(context, 1)
@@ -92,8 +69,6 @@ class EqualsSubstitution(Worded):
 
 
 class NotEqualsSubstitution(EqualsSubstitution):
-    command = "not-equals"
-
     def perform(self, context: LaunchContext) -> str:
         return str(not self._equal(context)).lower()
 

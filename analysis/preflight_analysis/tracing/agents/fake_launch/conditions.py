@@ -40,8 +40,8 @@ def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bo
 class IfCondition(Condition):
     attribute = "if"
 
-    def __init__(self, predicate_expression: Any) -> None:
-        self.expression: list[Substitution] = normalize_to_list_of_substitutions(predicate_expression)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.expression: list[Substitution] = normalize_to_list_of_substitutions(given.predicate_expression)
         super().__init__(predicate=self._predicate_func)
 
     def _predicate_func(self, context: LaunchContext) -> bool:
@@ -59,19 +59,19 @@ class _Comparison(Worded):
     """A configuration with a text, as the host is told of it."""
 
     def __init__(self, command: str, *words: Any) -> None:
-        self.command = command
+        self.preflight_kind = command
         self._words(*words)
 
 
 class LaunchConfigurationEquals(Condition):
     comparison = "config-equals"
 
-    def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
-        ensure_argument_type(launch_configuration_name, str, "launch_configuration_name", type(self).__name__)
-        self._name = launch_configuration_name
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._name = given.launch_configuration_name
+        ensure_argument_type(self._name, str, "launch_configuration_name", type(self).__name__)
         self._expected: Optional[list[Substitution]] = None
-        if expected_value is not None:
-            self._expected = normalize_to_list_of_substitutions(expected_value)
+        if given.expected_value is not None:
+            self._expected = normalize_to_list_of_substitutions(given.expected_value)
         words = (self._name,) if self._expected is None else (self._name, self._expected)
         self.expression: list[Substitution] = [_Comparison(self.comparison, *words)]
         super().__init__(predicate=self._predicate_func)

@@ -13,10 +13,8 @@ class BaseEventHandler(Made):
     preflight_entities: list[Any] = []
     preflight_function: Any = None
 
-    def __init__(self, *, matcher: Any = None, handle_once: bool = False, **kwargs: Any) -> None:
-        if kwargs:
-            raise TypeError(f"__init__() got an unexpected keyword argument '{next(iter(kwargs))}'")
-        self.matcher, self.handle_once = matcher, handle_once
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.matcher, self.handle_once = given.matcher, given.handle_once
 
     def matches(self, event: Any) -> bool:
         return False
@@ -42,9 +40,9 @@ class BaseEventHandler(Made):
 
 
 class EventHandler(BaseEventHandler):
-    def __init__(self, *, matcher: Any, entities: Any = None, handle_once: bool = False) -> None:
-        super().__init__(matcher=matcher, handle_once=handle_once)
-        self._does(entities)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(matcher=given.matcher, handle_once=given.handle_once)
+        self._does(given.entities)
 
     @property
     def entities(self) -> Any:
@@ -52,82 +50,55 @@ class EventHandler(BaseEventHandler):
 
 
 class OnActionEventBase(BaseEventHandler):
-    def __init__(
-        self,
-        *,
-        action_matcher: Any = None,
-        on_event: Any = None,
-        target_event_cls: Any = None,
-        target_action_cls: Any = None,
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(**kwargs)
-        wanted = target_action_cls or Action
-        if not (action_matcher is None or isinstance(action_matcher, wanted) or callable(action_matcher)):
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**left)
+        wanted, matcher = given.target_action_cls or Action, given.action_matcher
+        if not (matcher is None or isinstance(matcher, wanted) or callable(matcher)):
             raise TypeError(f"action_matcher must be an '{wanted.__name__}' instance or a callable")
-        self.preflight_target = action_matcher
-        self._does(on_event)
+        self.preflight_target = matcher
+        self._does(given.on_event)
 
-
-class OnExecutionComplete(OnActionEventBase):
-    def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_completion, **kwargs)
-
-
-class OnProcessExit(OnActionEventBase):
-    def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_exit, target_action_cls=ExecuteLocal, **kwargs)
-
-
-class OnProcessStart(OnActionEventBase):
-    def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_start, target_action_cls=ExecuteProcess, **kwargs)
-
-
-class OnProcessIO(OnActionEventBase):
-    def __init__(
-        self,
-        *,
-        target_action: Any = None,
-        on_stdin: Any = None,
-        on_stdout: Any = None,
-        on_stderr: Any = None,
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(
-            action_matcher=target_action,
-            on_event=on_stdout or on_stderr or on_stdin,
-            target_action_cls=ExecuteLocal,
-            **kwargs,
+    def _on(self, given: Any, event: Any, target: Any, left: Any) -> None:
+        OnActionEventBase.__init__(
+            self, action_matcher=given.target_action, on_event=event, target_action_cls=target, **left
         )
 
 
+class OnExecutionComplete(OnActionEventBase):
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(action_matcher=given.target_action, on_event=given.on_completion, **left)
+
+
+class OnProcessExit(OnActionEventBase):
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._on(given, given.on_exit, ExecuteLocal, left)
+
+
+class OnProcessStart(OnActionEventBase):
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._on(given, given.on_start, ExecuteProcess, left)
+
+
+class OnProcessIO(OnActionEventBase):
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._on(given, given.on_stdout or given.on_stderr or given.on_stdin, ExecuteLocal, left)
+
+
 class OnIncludeLaunchDescription(EventHandler):
-    def __init__(self, **kwargs: Any) -> None:
-        kwargs.setdefault("matcher", None)
-        super().__init__(**kwargs)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**{"matcher": None, **left})
 
 
 class OnShutdown(BaseEventHandler):
     """What it does nobody waits for: it is not told."""
 
-    def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**left)
 
 
 class OnStateTransition(EventHandler):
-    def __init__(
-        self,
-        *,
-        entities: Any,
-        target_lifecycle_node: Any = None,
-        transition: Any = None,
-        start_state: Any = None,
-        goal_state: Any = None,
-        matcher: Any = None,
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(matcher=matcher, entities=entities, **kwargs)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(matcher=given.matcher, entities=given.entities, **left)
 
 
 class _AnyEvent(Event):

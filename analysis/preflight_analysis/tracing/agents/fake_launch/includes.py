@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any
 
 from .base import (
     Action,
@@ -17,15 +17,10 @@ from .base import (
 class LaunchDescriptionSource(Made):
     kind = ""
 
-    def __init__(
-        self,
-        launch_description: Optional[LaunchDescription] = None,
-        location: Any = "<string>",
-        method: str = "unspecified mechanism from a script",
-    ) -> None:
-        self.preflight_description = launch_description
-        self.preflight_location = normalize_to_list_of_substitutions(location)
-        self.__method = method
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.preflight_description = given.launch_description
+        self.preflight_location = normalize_to_list_of_substitutions(given.location)
+        self.__method = given.method
 
     def try_get_launch_description_without_context(self) -> Any:
         return self.preflight_description
@@ -46,49 +41,46 @@ class LaunchDescriptionSource(Made):
 
     @property
     def method(self) -> str:
-        return self.__method
+        return str(self.__method)
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
-    def __init__(self, launch_file_path: Any) -> None:
-        super().__init__(None, launch_file_path, "interpreted launch file")
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(None, given.launch_file_path, "interpreted launch file")
 
 
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
-    def __init__(
-        self, launch_file_path: Any, *, method: str = "interpreted frontend launch file", parser: Any = None
-    ) -> None:
-        super().__init__(None, launch_file_path, method)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(None, given.launch_file_path, given.method)
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
     kind = "python"
 
-    def __init__(self, launch_file_path: Any) -> None:
-        super().__init__(None, launch_file_path, "interpreted python launch file")
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(None, given.launch_file_path, "interpreted python launch file")
 
 
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     kind = "xml"
 
-    def __init__(self, launch_file_path: Any) -> None:
-        super().__init__(launch_file_path, method="interpreted XML launch file")
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(given.launch_file_path, method="interpreted XML launch file")
 
 
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     kind = "yaml"
 
-    def __init__(self, launch_file_path: Any) -> None:
-        super().__init__(launch_file_path, method="interpreted YAML launch file")
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(given.launch_file_path, method="interpreted YAML launch file")
 
 
 class IncludeLaunchDescription(Action):
-    def __init__(self, launch_description_source: Any, *, launch_arguments: Any = None, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        if not isinstance(launch_description_source, LaunchDescriptionSource):
-            launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
-        self.__source = launch_description_source
-        self.__arguments = () if launch_arguments is None else tuple(launch_arguments)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**left)
+        source = given.launch_description_source
+        self.__source = source if isinstance(source, LaunchDescriptionSource) else AnyLaunchDescriptionSource(source)
+        self.__arguments = () if given.launch_arguments is None else tuple(given.launch_arguments)
 
     @property
     def launch_description_source(self) -> Any:
@@ -100,8 +92,9 @@ class IncludeLaunchDescription(Action):
 
     def preflight_serialize(self, t: Any) -> None:
         description = self.__source.preflight_description
-        t.kind = "include" if description is None else "inline"
-        if description is None:
+        if description is not None:
+            t.kind = "inline"
+        else:
             t.attribute("file", self.__source.preflight_location)
             t.attribute("source", self.__source.kind or None)
         for pair in self.__arguments:

@@ -14,43 +14,30 @@ from .ros_substitutions import ExecutableInPackage
 class Node(ExecuteProcess):
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
     UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
-    preflight_kind = "node"
 
-    def __init__(
-        self,
-        *,
-        executable: Any,
-        package: Any = None,
-        name: Any = None,
-        namespace: Any = None,
-        exec_name: Any = None,
-        parameters: Any = None,
-        remappings: Any = None,
-        ros_arguments: Any = None,
-        arguments: Any = None,
-        **kwargs: Any,
-    ) -> None:
-        first = executable if package is None else ExecutableInPackage(package=package, executable=executable)
-        command = [first, *([] if arguments is None else arguments)]
-        command += [] if ros_arguments is None else ["--ros-args", *ros_arguments]
+    def preflight_take(self, given: Any, left: Any) -> None:
+        first = given.executable
+        if given.package is not None:
+            first = ExecutableInPackage(package=given.package, executable=given.executable)
+        command = [first, *([] if given.arguments is None else given.arguments)]
+        command += [] if given.ros_arguments is None else ["--ros-args", *given.ros_arguments]
         normalized: tuple[Any, ...] = ()
-        if parameters is not None:
-            ensure_argument_type(parameters, list, "parameters", "Node")
-            normalized = normalize_parameters(parameters)
-        kwargs["name"] = exec_name
-        super().__init__(cmd=command, **kwargs)
-        self.__named = (package, executable, name, namespace, exec_name)
+        if given.parameters is not None:
+            ensure_argument_type(given.parameters, list, "parameters", "Node")
+            normalized = normalize_parameters(given.parameters)
+        left["name"] = given.exec_name
+        super().__init__(cmd=command, **left)
+        self.__given = given
         self.__parameters = normalized
-        self.__remappings = [] if remappings is None else list(normalize_remap_rules(remappings))
-        self.__arguments, self.__ros_arguments = arguments, ros_arguments
+        self.__remappings = [] if given.remappings is None else list(normalize_remap_rules(given.remappings))
 
     @property
     def node_package(self) -> Any:
-        return self.__named[0]
+        return self.__given.package
 
     @property
     def node_executable(self) -> Any:
-        return self.__named[1]
+        return self.__given.executable
 
     @property
     def node_name(self) -> Any:
@@ -66,19 +53,18 @@ class Node(ExecuteProcess):
 
     def preflight_named(self) -> Any:
         """Its name and namespace, as given."""
-        return self.__named[2], self.__named[3]
+        return self.__given.name, self.__given.namespace
 
     def preflight_serialize(self, t: Any) -> None:
-        t.kind = self.preflight_kind
-        package, executable, name, namespace, exec_name = self.__named
-        t.attribute("pkg", package)
-        t.attribute("exec", executable)
-        t.attribute("name", name)
-        t.attribute("namespace", namespace)
-        t.attribute("exec_name", exec_name)
-        for word in self.__arguments or ():
+        given = self.__given
+        t.attribute("pkg", given.package)
+        t.attribute("exec", given.executable)
+        t.attribute("name", given.name)
+        t.attribute("namespace", given.namespace)
+        t.attribute("exec_name", given.exec_name)
+        for word in given.arguments or ():
             t.child("argument", value=word)
-        for word in self.__ros_arguments or ():
+        for word in given.ros_arguments or ():
             t.child("ros_argument", value=word)
         serialize_parameters(t, self.__parameters)
         serialize_remappings(t, self.__remappings)
@@ -86,26 +72,15 @@ class Node(ExecuteProcess):
 
 
 class ComposableNode(Made):
-    def __init__(
-        self,
-        *,
-        package: Any,
-        plugin: Any,
-        name: Any = None,
-        namespace: Any = None,
-        parameters: Any = None,
-        remappings: Any = None,
-        extra_arguments: Any = None,
-        condition: Any = None,
-    ) -> None:
-        self.__package = normalize_to_list_of_substitutions(package)
-        self.__plugin = normalize_to_list_of_substitutions(plugin)
-        self.__name = None if name is None else normalize_to_list_of_substitutions(name)
-        self.__namespace = None if namespace is None else normalize_to_list_of_substitutions(namespace)
-        self.__parameters = None if parameters is None else normalize_parameters(parameters)
-        self.__remappings = list(normalize_remap_rules(remappings)) if remappings else None
-        self.__extra_arguments = normalize_parameters(extra_arguments) if extra_arguments else None
-        self.__condition = condition
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.__package = normalize_to_list_of_substitutions(given.package)
+        self.__plugin = normalize_to_list_of_substitutions(given.plugin)
+        self.__name = None if given.name is None else normalize_to_list_of_substitutions(given.name)
+        self.__namespace = None if given.namespace is None else normalize_to_list_of_substitutions(given.namespace)
+        self.__parameters = None if given.parameters is None else normalize_parameters(given.parameters)
+        self.__remappings = list(normalize_remap_rules(given.remappings)) if given.remappings else None
+        self.__extra_arguments = normalize_parameters(given.extra_arguments) if given.extra_arguments else None
+        self.__condition = given.condition
 
     @property
     def package(self) -> Any:
@@ -139,7 +114,6 @@ class ComposableNode(Made):
         return self.__condition
 
     def preflight_serialize(self, t: Any) -> None:
-        t.kind = "composable_node"
         t.condition(self.__condition)
         t.attribute("pkg", self.__package)
         t.attribute("plugin", self.__plugin)
@@ -151,9 +125,9 @@ class ComposableNode(Made):
 
 
 class ComposableLifecycleNode(ComposableNode):
-    def __init__(self, *, autostart: Any = False, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__autostart = autostart
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**left)
+        self.__autostart = given.autostart
 
     @property
     def node_autostart(self) -> Any:
@@ -165,11 +139,9 @@ class ComposableLifecycleNode(ComposableNode):
 
 
 class ComposableNodeContainer(Node):
-    preflight_kind = "node_container"
-
-    def __init__(self, *, name: Any, namespace: Any, composable_node_descriptions: Any = None, **kwargs: Any) -> None:
-        super().__init__(name=name, namespace=namespace, **kwargs)
-        self.__descriptions = composable_node_descriptions
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(name=given.name, namespace=given.namespace, **left)
+        self.__descriptions = given.composable_node_descriptions
 
     def preflight_serialize(self, t: Any) -> None:
         super().preflight_serialize(t)
@@ -178,11 +150,9 @@ class ComposableNodeContainer(Node):
 
 
 class LifecycleNode(Node):
-    preflight_kind = "lifecycle_node"
-
-    def __init__(self, *, name: Any, namespace: Any, autostart: Any = None, **kwargs: Any) -> None:
-        super().__init__(name=name, namespace=namespace, **kwargs)
-        self.preflight_autostart = autostart
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(name=given.name, namespace=given.namespace, **left)
+        self.preflight_autostart = given.autostart
 
     def preflight_serialize(self, t: Any) -> None:
         super().preflight_serialize(t)
@@ -195,30 +165,28 @@ class LifecycleNode(Node):
 
 
 class LifecycleTransition(Action):
-    def __init__(self, *, lifecycle_node_names: Any, transition_ids: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        if len(lifecycle_node_names) == 0:
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**left)
+        if len(given.lifecycle_node_names) == 0:
             raise RuntimeError("No lifecycle_node_names provided.")
-        if len(transition_ids) == 0:
+        if len(given.transition_ids) == 0:
             raise RuntimeError("No transition_ids provided.")
-        self.__names, self.__transitions = list(lifecycle_node_names), list(transition_ids)
+        self.__names, self.__transitions = list(given.lifecycle_node_names), list(given.transition_ids)
 
     def preflight_serialize(self, t: Any) -> None:
-        t.kind = "lifecycle_transition"
         for name in self.__names:
             for transition in self.__transitions:
                 t.child("asked", name=name, transition=transition)
 
 
 class LoadComposableNodes(Action):
-    def __init__(self, *, composable_node_descriptions: Any, target_container: Any, **kwargs: Any) -> None:
+    def preflight_take(self, given: Any, left: Any) -> None:
         types = (str, Substitution, AnyIterable, ComposableNodeContainer)
-        ensure_argument_type(target_container, types, "target_container", "LoadComposableNodes")
-        super().__init__(**kwargs)
-        self.__descriptions, self.__target = composable_node_descriptions, target_container
+        ensure_argument_type(given.target_container, types, "target_container", "LoadComposableNodes")
+        super().__init__(**left)
+        self.__descriptions, self.__target = given.composable_node_descriptions, given.target_container
 
     def preflight_serialize(self, t: Any) -> None:
-        t.kind = "load_composable_node"
         if isinstance(self.__target, ComposableNodeContainer):
             name, namespace = self.__target.preflight_named()
             t.child("target", name=name, namespace=namespace)

@@ -23,12 +23,12 @@ _SCALARS = (int, float, bool, str)
 
 
 class ParameterValue(Made):
-    def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        self.__value = normalize_typed_substitution(value, value_type)
-        self.__value_type = value_type
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.__value_type = given.value_type
+        self.__value = normalize_typed_substitution(given.value, self.__value_type)
         self.preflight_type: Optional[str] = None
-        if value_type is not None:
-            kind, is_list = extract_type(value_type)
+        if self.__value_type is not None:
+            kind, is_list = extract_type(self.__value_type)
             self.preflight_type = f"list_of_{kind.__name__}" if is_list else str(kind.__name__)
 
     @property
@@ -44,9 +44,9 @@ class ParameterValue(Made):
 
 
 class Parameter(Made):
-    def __init__(self, name: Any, value: Any, *, value_type: Any = None) -> None:
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.preflight_value = ParameterValue(value, value_type=value_type)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self.__name = normalize_to_list_of_substitutions(given.name)
+        self.preflight_value = ParameterValue(given.value, value_type=given.value_type)
 
     @property
     def name(self) -> Any:
@@ -65,13 +65,12 @@ class Parameter(Made):
 
 
 class ParameterFile(Made):
-    def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
+    def preflight_take(self, given: Any, left: Any) -> None:
         types = (str, Substitution, AnyIterable, os.PathLike, bytes)
-        ensure_argument_type(param_file, types, "param_file", "ParameterFile()")
-        if isinstance(param_file, bytes):
-            param_file = os.fsdecode(param_file)
-        self.__param_file = normalize_to_list_of_substitutions(param_file)
-        self.__allow_substs = allow_substs
+        ensure_argument_type(given.param_file, types, "param_file", "ParameterFile()")
+        path = os.fsdecode(given.param_file) if isinstance(given.param_file, bytes) else given.param_file
+        self.__param_file = normalize_to_list_of_substitutions(path)
+        self.__allow_substs = given.allow_substs
 
     @property
     def param_file(self) -> Any:

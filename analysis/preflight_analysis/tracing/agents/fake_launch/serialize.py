@@ -22,7 +22,6 @@ from .base import (
     overrides,
 )
 from .conditions import IfCondition, LaunchConfigurationEquals
-from .processes import ExecuteProcess
 from .ros_nodes import ComposableNode
 from .ros_parameters import ParameterValue
 from .ros_substitutions import FindPackage
@@ -64,10 +63,6 @@ class Serializer:
     @kind.setter
     def kind(self, kind: str) -> None:
         self._open[-1]["k"] = kind
-
-    def opaque(self) -> None:
-        """It has to be executed for what it does."""
-        self.kind = "opaque"
 
     def entities(self, entities: Iterable[Any]) -> None:
         """Its children."""
@@ -158,27 +153,26 @@ class Serializer:
             self._open.pop()
 
     def _serialize_entity(self, entity: Any) -> None:
-        if isinstance(entity, LaunchDescription):
-            self.kind = "inline"
-            self.entities(entity.entities)
-        elif isinstance(entity, Action):
+        if isinstance(entity, Action):
             self.condition(entity.condition)
-            if overrides(entity, "execute"):
-                self.opaque()
-            elif hasattr(entity, "preflight_serialize"):
-                entity.preflight_serialize(self)
-        elif isinstance(entity, ComposableNode):
-            entity.preflight_serialize(self)
-        elif not isinstance(entity, ExecuteProcess):
+        elif not isinstance(entity, (LaunchDescription, ComposableNode)):
             raise TypeError(f"'{type(entity).__name__}' is no action")
+        if isinstance(entity, Action) and overrides(entity, "execute"):
+            self.kind = "opaque"
+        else:
+            self._told(entity)
+
+    def _told(self, entity: Any) -> None:
+        self.kind = entity.preflight_call.kind or "unknown"
+        if self.kind != "opaque":
+            entity.preflight_serialize(self)
 
     def plain_entity(self, entity: Any) -> dict[str, Any]:
         """An action that the user's own one is made from, as if it were just that."""
         made: dict[str, Any] = {"k": "unknown", "n": type(entity).__name__, "a": {}, "c": []}
         made["p"], made["i"] = getattr(entity, "preflight_place", None), 0
         self._open.append(made)
-        if hasattr(entity, "preflight_serialize"):
-            entity.preflight_serialize(self)
+        self._told(entity)
         self._open.pop()
         return made
 
@@ -230,7 +224,12 @@ class Serializer:
         own = overrides(sub, "perform") or (isinstance(sub, FindPackage) and overrides(sub, "find"))
         if isinstance(sub, Worded) and not own:
             words = [[part for each in word for part in self._pieces(each)] for word in sub.words]
-            return {"s": sub.command, "w": words, "n": type(sub).__name__, "p": sub.preflight_place}
+            return {
+                "s": sub.preflight_kind or sub.preflight_call.kind,
+                "w": words,
+                "n": type(sub).__name__,
+                "p": sub.preflight_place,
+            }
         return _own(sub)
 
 

@@ -2,43 +2,33 @@
 
 from __future__ import annotations
 
-import os
-from typing import Any, Iterable, Optional
+from typing import Any, Optional
 
 from ..anything import is_unknown
 from .base import Action, Substitution, normalize_to_list_of_substitutions
 
 
 class DeclareLaunchArgument(Action):
-    def __init__(
-        self,
-        name: str,
-        *,
-        default_value: Any = None,
-        description: Optional[str] = None,
-        choices: Optional[Iterable[str]] = None,
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(**kwargs)
-        self.__name = name
-        self.__default_value = None if default_value is None else normalize_to_list_of_substitutions(default_value)
-        self.__choices = None if choices is None else list(choices)
-        self.__description = description or "no description given"
-        self.preflight_doc = description
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**left)
+        default = given.default_value
+        self.__name = given.name
+        self.__default_value = None if default is None else normalize_to_list_of_substitutions(default)
+        self.__choices = None if given.choices is None else list(given.choices)
+        self.__description = given.description or "no description given"
+        self.preflight_doc = given.description
         self._conditionally_included = False
         if self.__choices is not None:
             if not self.__choices:
                 raise RuntimeError("Provided choices arg is empty. Use None to ignore the choice list.")
-            literal = isinstance(default_value, str) and not is_unknown(default_value)
+            literal = isinstance(default, str) and not is_unknown(default)
             is_known = literal and all(isinstance(each, str) and not is_unknown(each) for each in self.__choices)
-            if is_known and default_value not in self.__choices:
-                raise RuntimeError(
-                    f'Provided default_value "{default_value}" is not in provided choices "{self.__choices}".'
-                )
+            if is_known and default not in self.__choices:
+                raise RuntimeError(f'Provided default_value "{default}" is not in provided choices "{self.__choices}".')
 
     @property
     def name(self) -> str:
-        return self.__name
+        return str(self.__name)
 
     @property
     def default_value(self) -> Optional[list[Substitution]]:
@@ -46,14 +36,13 @@ class DeclareLaunchArgument(Action):
 
     @property
     def description(self) -> str:
-        return self.__description
+        return str(self.__description)
 
     @property
     def choices(self) -> Optional[list[str]]:
         return self.__choices
 
     def preflight_serialize(self, t: Any) -> None:
-        t.kind = "arg"
         t.attribute("name", self.__name)
         t.attribute("default", self.__default_value)
         t.attribute("description", self.preflight_doc)
@@ -61,117 +50,51 @@ class DeclareLaunchArgument(Action):
             t.child("choice", value=str(choice))
 
 
-class _Set(Action):
-    """Sets something by name; `preflight_kind` is its tag."""
-
-    preflight_kind = ""
-
-    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        return self.__value
-
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = self.preflight_kind
-        t.attribute("name", self.__name)
-        t.attribute("value", self.__value)
+class SetLaunchConfiguration(Action):
+    pass
 
 
-class _Unset(Action):
-    """Takes something away by name; `preflight_kind` is its tag."""
-
-    preflight_kind = ""
-
-    def __init__(self, name: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
-
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = self.preflight_kind
-        t.attribute("name", self.__name)
+class UnsetLaunchConfiguration(Action):
+    pass
 
 
-class SetLaunchConfiguration(_Set):
-    preflight_kind = "let"
+class SetEnvironmentVariable(Action):
+    pass
 
 
-class UnsetLaunchConfiguration(_Unset):
-    preflight_kind = "unlet"
-
-
-class SetEnvironmentVariable(_Set):
-    preflight_kind = "set_env"
-
-
-class UnsetEnvironmentVariable(_Unset):
-    preflight_kind = "unset_env"
+class UnsetEnvironmentVariable(Action):
+    pass
 
 
 class AppendEnvironmentVariable(Action):
-    def __init__(self, name: Any, value: Any, prepend: Any = False, separator: Any = os.pathsep, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-        self.__prepend, self.__separator = prepend, normalize_to_list_of_substitutions(separator)
-
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = "append_env"
-        t.attribute("name", self.__name)
-        t.attribute("value", self.__value)
-        t.attribute("prepend", self.__prepend if isinstance(self.__prepend, bool) else t.parts(self.__prepend))
-        t.attribute("separator", self.__separator)
+    pass
 
 
-class _Plain(Action):
-    """One without attributes."""
-
-    preflight_kind = ""
-
-    def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-
-    def preflight_serialize(self, t: Any) -> None:
-        t.kind = self.preflight_kind
+class PushEnvironment(Action):
+    pass
 
 
-class PushEnvironment(_Plain):
-    preflight_kind = "push_env"
+class PopEnvironment(Action):
+    pass
 
 
-class PopEnvironment(_Plain):
-    preflight_kind = "pop_env"
+class ResetEnvironment(Action):
+    pass
 
 
-class ResetEnvironment(_Plain):
-    preflight_kind = "reset_env"
+class PushLaunchConfigurations(Action):
+    pass
 
 
-class PushLaunchConfigurations(_Plain):
-    preflight_kind = "push_configurations"
-
-
-class PopLaunchConfigurations(_Plain):
-    preflight_kind = "pop_configurations"
+class PopLaunchConfigurations(Action):
+    pass
 
 
 class ResetLaunchConfigurations(Action):
-    def __init__(self, launch_configurations: Optional[dict[Any, Any]] = None, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__kept = dict(launch_configurations or {})
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(**left)
+        self.__kept = dict(given.launch_configurations or {})
 
     def preflight_serialize(self, t: Any) -> None:
-        t.kind = "reset"
         for name, value in self.__kept.items():
             t.child("keep", name=normalize_to_list_of_substitutions(name), value=value)

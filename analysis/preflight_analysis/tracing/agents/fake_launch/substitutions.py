@@ -9,7 +9,7 @@ import os
 import shlex
 import shutil
 import subprocess
-from typing import Any, Optional
+from typing import Any
 
 from ..anything import marked, unknown_text
 from ..missing_modules import provided_for
@@ -28,20 +28,19 @@ _FAILURE = ("SubstitutionFailure", "RuntimeError")
 
 
 class LaunchConfiguration(Worded):
-    command = "var"
-
-    def __init__(self, variable_name: Any, *, default: Any = None) -> None:
+    def preflight_take(self, given: Any, left: Any) -> None:
+        name, default = given.variable_name, given.default
         ensure_argument_type(
-            variable_name, (str, Substitution, collections.abc.Iterable), "variable_name", "LaunchConfiguration"
+            name, (str, Substitution, collections.abc.Iterable), "variable_name", "LaunchConfiguration"
         )
         if default is None:
-            self._words(variable_name)
+            self._words(name)
             return
         if isinstance(default, collections.abc.Iterable) and not isinstance(default, str):
             default = [x if isinstance(x, Substitution) else str(x) for x in default]
         elif not isinstance(default, Substitution):
             default = str(default)
-        self._words(variable_name, default)
+        self._words(name, default)
 
     @property
     def variable_name(self) -> Parts:
@@ -63,24 +62,7 @@ class LaunchConfiguration(Worded):
         return unknown_text(name)
 
 
-class _WithDefault(Worded):
-    """A name, and the text where nothing has it."""
-
-    def __init__(self, name: Any, *, default_value: Any = None) -> None:
-        self._words(*((name,) if default_value is None else (name, default_value)))
-
-    @property
-    def name(self) -> Parts:
-        return self.words[0]
-
-    @property
-    def default_value(self) -> Optional[Parts]:
-        return self.words[1] if len(self.words) == 2 else None
-
-
-class EnvironmentVariable(_WithDefault):
-    command = "env"
-
+class EnvironmentVariable(Worded):
     def perform(self, context: LaunchContext) -> str:
         name = self._text(context, 0)
         if name in context.environment:
@@ -94,10 +76,8 @@ class EnvironmentVariable(_WithDefault):
 
 
 class PathJoinSubstitution(Worded):
-    command = "path-join"
-
-    def __init__(self, substitutions: Any) -> None:
-        self._words(*substitutions)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._words(*given.substitutions)
 
     @property
     def substitutions(self) -> list[Parts]:
@@ -113,20 +93,11 @@ class PathJoinSubstitution(Worded):
 class PathSubstitution(PathJoinSubstitution):
     """`PathSubstitution(share) / "launch"`, of a launch newer than 3.7."""
 
-    def __init__(self, path: Any) -> None:
-        super().__init__([path])
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__([given.path])
 
 
 class Command(Worded):
-    command = "command"
-
-    def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
-        self._words(command, on_stderr)
-
-    @property
-    def on_stderr(self) -> Parts:
-        return self.words[1]
-
     def perform(self, context: LaunchContext) -> str:
         line = self._text(context, 0)
         words = shlex.split(line)
@@ -152,13 +123,12 @@ def _own_xacro(words: list[str]) -> str:
 
 
 class PythonExpression(Worded):
-    command = "eval"
-
-    def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
+    def preflight_take(self, given: Any, left: Any) -> None:
+        expression, modules = given.expression, given.python_modules
         ensure_argument_type(
             expression, (str, Substitution, collections.abc.Iterable), "expression", "PythonExpression"
         )
-        modules = [python_modules] if isinstance(python_modules, str) else list(python_modules)
+        modules = [modules] if isinstance(modules, str) else list(modules)
         joined: list[Any] = []
         for module in modules:
             joined += [", "] if joined else []
@@ -178,60 +148,27 @@ class PythonExpression(Worded):
 
 
 class ThisLaunchFileDir(Worded):
-    command = "dirname"
-
-    def __init__(self) -> None:
-        self._words()
-
     def perform(self, context: LaunchContext) -> str:
         return os.path.dirname(ThisLaunchFile().perform(context))
 
 
 class ThisLaunchFile(Worded):
-    command = "filename"
-
-    def __init__(self) -> None:
-        self._words()
-
     def perform(self, context: LaunchContext) -> str:
         return str(context.get_locals_as_dict().get("current_launch_file_path", RECORDER.file))
 
 
 class LaunchLogDir(Worded):
-    command = "launch_log_dir"
-
-    def __init__(self) -> None:
-        self._words()
-
     def perform(self, context: LaunchContext) -> str:
         return os.environ.get("ROS_LOG_DIR", "/tmp")  # noqa: S108
 
 
 class AnonName(Worded):
-    command = "anon"
-
-    def __init__(self, name: Any) -> None:
-        self._words(name)
-
-    @property
-    def name(self) -> Parts:
-        return self.words[0]
-
     def perform(self, context: LaunchContext) -> str:
         name = self._text(context, 0)
         return str(context.launch_configurations.setdefault("anon" + name, name + "_ANON1"))
 
 
 class FindExecutable(Worded):
-    command = "find-exec"
-
-    def __init__(self, *, name: Any) -> None:
-        self._words(name)
-
-    @property
-    def name(self) -> Parts:
-        return self.words[0]
-
     def perform(self, context: LaunchContext) -> str:
         found = shutil.which(self._text(context, 0))
         if found is None and self._text(context, 0) == "xacro":
@@ -242,27 +179,20 @@ class FindExecutable(Worded):
 
 
 class FileContent(Worded):
-    command = "file-content"
-
-    def __init__(self, path: Any) -> None:
-        self._words(path)
-
     def perform(self, context: LaunchContext) -> str:
         with open(self._text(context, 0)) as file:
             return file.read()
 
 
 class LocalSubstitution(Worded):
-    command = "local"
-
-    def __init__(self, expression: str, description: Optional[str] = None) -> None:
-        ensure_argument_type(expression, str, "expression", "LocalSubstitution")
-        self.__expression = expression
-        self._words(expression)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        ensure_argument_type(given.expression, str, "expression", "LocalSubstitution")
+        self.__expression = given.expression
+        self._words(given.expression)
 
     @property
     def expression(self) -> str:
-        return self.__expression
+        return str(self.__expression)
 
     def perform(self, context: LaunchContext) -> str:
         return str(eval("context.locals." + self.__expression, {}, {"context": context}))  # noqa: S307 - as launch
@@ -271,10 +201,8 @@ class LocalSubstitution(Worded):
 class StringJoinSubstitution(Worded):
     """Of Kilted, as `ForEachVar` and `ForLoopIndex`."""
 
-    command = "string-join"
-
-    def __init__(self, substitutions: Any, delimiter: Any = "") -> None:
-        self._words(delimiter, *substitutions)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        self._words(given.delimiter, *given.substitutions)
 
     @property
     def substitutions(self) -> list[Parts]:
@@ -288,9 +216,7 @@ class StringJoinSubstitution(Worded):
         return self._text(context, 0).join(self._text(context, i) for i in range(1, len(self.words)))
 
 
-class ForEachVar(_WithDefault):
-    command = "for-var"
-
+class ForEachVar(Worded):
     @classmethod
     def get_local_arg_name(cls, name: str) -> str:
         return f"ForEachVar__{name}"
@@ -306,16 +232,14 @@ class ForEachVar(_WithDefault):
 
 
 class ForLoopIndex(ForEachVar):
-    command = "index"
-
-    def __init__(self, name: Any, **kwargs: Any) -> None:
-        super().__init__(name)
+    def preflight_take(self, given: Any, left: Any) -> None:
+        super().__init__(given.name)
 
 
 class Written(Worded):
     """A text with `$(...)` in it, which the host reads."""
 
-    command = "written"
+    preflight_kind = "written"
 
     def __init__(self, text: str) -> None:
         self._words(text)

@@ -24,10 +24,15 @@ def truth(text: str) -> bool:
 
 
 class Worded(Substitution):
-    """One that the host knows by `command`, with the texts that `words` are."""
+    """One that the host knows by its kind, with the texts that `words` are."""
 
-    command = ""
+    preflight_kind = ""
+    """Where it is no class of launch's."""
     words: tuple[Parts, ...] = ()
+
+    def preflight_keep(self, given: dict[str, Any]) -> None:
+        self._words(*(value for value in given.values() if value is not None))
+        self.preflight_given = dict(zip(given, (*self.words, *([None] * len(given)))))
 
     def _words(self, *values: Any) -> None:
         self.words = tuple(normalize_to_list_of_substitutions(value) for value in values)
