@@ -6,7 +6,7 @@ are proposed, explained, refused or found again in the text (`launch/python_api.
 
 from __future__ import annotations
 
-from typing import Mapping, NamedTuple
+from typing import Iterator, Mapping, NamedTuple
 
 
 class Call(NamedTuple):
@@ -15,431 +15,389 @@ class Call(NamedTuple):
     name: str
     takes: str = ""
     """Its parameters, as after `self` in a `def`. `**kwargs` is for the class `of`, less what is in `gives`."""
-    of: str = ""
-    """The name of the class that it is made from, where that takes something."""
     kind: str = ""
     """What it makes: the kind of an action or of a part of one, the command of a substitution."""
+    doc: str = ""
+    """What it is, where neither a tag nor a substitution of the other formats says that."""
+    of: str = ""
+    """The name of the class that it is made from, where that takes something."""
     attributes: Mapping[str, str] = {}
     """The attributes of that kind whose parameter has another name."""
     gives: tuple[str, ...] = ()
     """What it gives to the class `of` itself."""
-    doc: str = ""
-    """What it is, where neither a tag nor a substitution of the other formats says that."""
-    inherits: bool = False
-    """Whether it takes what the class `of` does, and nothing else."""
 
     @property
     def short_name(self) -> str:
         """The name without its module."""
         return self.name.rpartition(".")[2]
 
+    @property
+    def inherits(self) -> bool:
+        """Whether it takes what the class `of` does, and nothing else."""
+        return bool(self.of) and not self.takes
 
-def _same(name: str, of: str, kind: str = "", doc: str = "", attributes: Mapping[str, str] = {}) -> Call:
-    """A class that takes what another one does."""
-    return Call(name, of=of, kind=kind, doc=doc, attributes=attributes, inherits=True)
+
+def _action(name: str, kind: str, takes: str = "", doc: str = "", attributes: Mapping[str, str] = {}) -> Call:
+    return Call(name, f"{takes}, **kwargs" if takes else "**kwargs", kind, doc, "Action", attributes)
+
+
+def _in(module: str, *calls: Call) -> Iterator[Call]:
+    return (each._replace(name=f"{module}.{each.name}") for each in calls)
 
 
 _NODE = {"pkg": "package", "exec": "executable", "launch-prefix": "prefix"}
 _PROCESS = {"launch-prefix": "prefix", "argument": "cmd"}
 _LOG = {"message": "msg"}
 _OF_EVENT = ("action_matcher", "on_event", "target_event_cls", "target_action_cls")
-_ACTIONS = (
-    Call("launch.Action", "*, condition=None", doc="What other actions are made from."),
-    Call(
-        "launch.actions.DeclareLaunchArgument",
-        "name, *, default_value=None, description=None, choices=None, **kwargs",
-        "Action",
-        "arg",
-        {"default": "default_value"},
+CALLS = (
+    *_in(
+        "launch",
+        Call("Action", "*, condition=None", doc="What other actions are made from."),
+        Call(
+            "LaunchDescription",
+            "initial_entities=None, *, deprecated_reason=None",
+            "inline",
+            doc="The actions of a launch file.",
+        ),
+        Call("Condition", "*, predicate=None", doc="Whether an action is executed, as a function tells."),
+        Call(
+            "LaunchDescriptionSource",
+            "launch_description=None, location='<string>', method='unspecified mechanism from a script'",
+            doc="A launch description that the file itself makes.",
+        ),
+        Call(
+            "EventHandler",
+            "*, matcher, entities=None, handle_once=False",
+            doc="Executes actions upon the events that match.",
+        ),
     ),
-    Call(
-        "launch.actions.IncludeLaunchDescription",
-        "launch_description_source, *, launch_arguments=None, **kwargs",
-        "Action",
-        "include",
-        {"file": "launch_description_source"},
+    *_in(
+        "launch.actions",
+        _action(
+            "DeclareLaunchArgument",
+            "arg",
+            "name, *, default_value=None, description=None, choices=None",
+            attributes={"default": "default_value"},
+        ),
+        _action(
+            "IncludeLaunchDescription",
+            "include",
+            "launch_description_source, *, launch_arguments=None",
+            attributes={"file": "launch_description_source"},
+        ),
+        Call(
+            "GroupAction",
+            "actions, *, scoped=True, forwarding=True, launch_configurations=None, **left_over_kwargs",
+            "group",
+            of="Action",
+        ),
+        _action("SetLaunchConfiguration", "let", "name, value"),
+        _action("UnsetLaunchConfiguration", "unlet", "name", doc="Removes a launch configuration."),
+        _action("ResetLaunchConfigurations", "reset", "launch_configurations=None"),
+        _action(
+            "PushLaunchConfigurations",
+            "push_configurations",
+            doc="Keeps the launch configurations, to come back to them.",
+        ),
+        _action(
+            "PopLaunchConfigurations",
+            "pop_configurations",
+            doc="Goes back to the launch configurations of the last push.",
+        ),
+        _action("SetEnvironmentVariable", "set_env", "name, value"),
+        _action("UnsetEnvironmentVariable", "unset_env", "name"),
+        _action("AppendEnvironmentVariable", "append_env", "name, value, prepend=False, separator=':'"),
+        _action("ResetEnvironment", "reset_env"),
+        _action("PushEnvironment", "push_env", doc="Keeps the environment, to come back to it."),
+        _action("PopEnvironment", "pop_env", doc="Goes back to the environment of the last push."),
+        _action("Log", "log", "*, msg, level", attributes=_LOG),
+        Call("LogInfo", "*, msg, **kwargs", "log", doc="Prints a message.", of="Log", attributes=_LOG),
+        Call("LogDebug", kind="log", doc="Prints a message for debugging.", of="LogInfo", attributes=_LOG),
+        Call("LogWarning", kind="log", doc="Prints a warning.", of="LogInfo", attributes=_LOG),
+        Call("LogError", kind="log", doc="Prints an error.", of="LogInfo", attributes=_LOG),
+        _action("TimerAction", "timer", "*, period, actions, cancel_on_shutdown=True"),
+        _action("EmitEvent", "emit_event", "*, event", doc="Makes an event happen."),
+        Call("Shutdown", "*, reason='reason not given', **kwargs", "shutdown", of="EmitEvent", gives=("event",)),
+        _action(
+            "RegisterEventHandler", "event_handler", "event_handler", doc="Has an event handler wait for its event."
+        ),
+        _action(
+            "UnregisterEventHandler",
+            "unregister_event_handler",
+            "event_handler",
+            doc="Ends the wait of an event handler.",
+        ),
+        Call(
+            "OpaqueFunction",
+            "*, function, args=None, kwargs=None, **left_over_kwargs",
+            "opaque",
+            doc="Calls a function with the context of the launch; the actions that it returns are executed.",
+            of="Action",
+        ),
+        Call(
+            "OpaqueCoroutine",
+            "*, coroutine, args=None, kwargs=None, ignore_context=False, **left_over_kwargs",
+            "opaque_coroutine",
+            doc="Runs a coroutine beside the launch.",
+            of="Action",
+        ),
+        _action(
+            "ForLoop",
+            "opaque",
+            "length, *, function, name=None",
+            doc="Calls a function with 0, 1, ... up to a length. Of a launch newer than 3.7.",
+        ),
+        _action(
+            "ForEach",
+            "opaque",
+            "input_values, *, function",
+            doc="Calls a function with each set of values. Of a launch newer than 3.7.",
+        ),
+        Call(
+            "ExecuteProcess",
+            "*, cmd, prefix=None, name=None, cwd=None, env=None, additional_env=None, **kwargs",
+            "executable",
+            of="ExecuteLocal",
+            attributes=_PROCESS,
+            gives=("process_description",),
+        ),
+        _action(
+            "ExecuteLocal",
+            "executable",
+            "*, process_description, shell=False, sigterm_timeout='5', sigkill_timeout='5', emulate_tty=False, "
+            "output='log', output_format='[{this.process_description.final_name}] {line}', cached_output=False, "
+            "log_cmd=False, on_exit=None, respawn=False, respawn_delay=None, respawn_max_retries=-1",
+            doc="Starts the process of an `Executable`.",
+        ),
     ),
-    Call(
-        "launch.actions.GroupAction",
-        "actions, *, scoped=True, forwarding=True, launch_configurations=None, **left_over_kwargs",
-        "Action",
-        "group",
+    *_in(
+        "launch_ros.actions",
+        Call(
+            "Node",
+            "*, executable, package=None, name=None, namespace=None, exec_name=None, parameters=None, "
+            "remappings=None, ros_arguments=None, arguments=None, **kwargs",
+            "node",
+            of="ExecuteProcess",
+            attributes=_NODE,
+            gives=("cmd",),
+        ),
+        Call(
+            "LifecycleNode",
+            "*, name, namespace, autostart=None, **kwargs",
+            "lifecycle_node",
+            doc="Starts a lifecycle node.",
+            of="Node",
+            attributes=_NODE,
+        ),
+        Call(
+            "ComposableNodeContainer",
+            "*, name, namespace, composable_node_descriptions=None, **kwargs",
+            "node_container",
+            of="Node",
+            attributes=_NODE,
+        ),
+        _action(
+            "LoadComposableNodes",
+            "load_composable_node",
+            "*, composable_node_descriptions, target_container",
+            attributes={"target": "target_container"},
+        ),
+        _action(
+            "LifecycleTransition",
+            "lifecycle_transition",
+            "*, lifecycle_node_names, transition_ids",
+            doc="Takes lifecycle nodes through transitions.",
+        ),
+        _action("PushROSNamespace", "push_ros_namespace", "namespace"),
+        Call("PushRosNamespace", kind="push_ros_namespace", of="PushROSNamespace"),
+        Call("ROSTimer", "*, period, actions, **kwargs", "timer", of="TimerAction"),
+        Call("RosTimer", kind="timer", of="ROSTimer"),
+        _action("SetParameter", "set_parameter", "name, value"),
+        _action("SetParametersFromFile", "set_parameters_from_file", "filename"),
+        _action("SetRemap", "set_remap", "src, dst", attributes={"from": "src", "to": "dst"}),
+        _action("SetUseSimTime", "set_use_sim_time", "value"),
+        _action("SetROSLogDir", "set_ros_log_dir", "new_log_dir"),
     ),
-    Call("launch.actions.SetLaunchConfiguration", "name, value, **kwargs", "Action", "let"),
-    Call(
-        "launch.actions.UnsetLaunchConfiguration",
-        "name, **kwargs",
-        "Action",
-        "unlet",
-        doc="Removes a launch configuration.",
+    *_in(
+        "launch_ros.descriptions",
+        Call(
+            "ComposableNode",
+            "*, package, plugin, name=None, namespace=None, parameters=None, remappings=None, "
+            "extra_arguments=None, condition=None",
+            "composable_node",
+            attributes={"pkg": "package"},
+        ),
+        Call(
+            "ComposableLifecycleNode",
+            "*, autostart=False, **kwargs",
+            "composable_node",
+            of="ComposableNode",
+            attributes={"pkg": "package"},
+        ),
+        Call(
+            "ParameterFile",
+            "param_file, *, allow_substs=False",
+            doc="A file of parameters, in which substitutions may be performed.",
+        ),
+        Call("ParameterValue", "value, *, value_type=None", doc="The value of a parameter, of the type that is said."),
+        Call("Parameter", "name, value, *, value_type=None", doc="A parameter and its value."),
     ),
-    Call("launch.actions.ResetLaunchConfigurations", "launch_configurations=None, **kwargs", "Action", "reset"),
-    Call(
-        "launch.actions.PushLaunchConfigurations",
-        "**kwargs",
-        "Action",
-        "push_configurations",
-        doc="Keeps the launch configurations, to come back to them.",
+    *_in(
+        "launch.descriptions",
+        Call(
+            "Executable",
+            "*, cmd, prefix=None, name=None, cwd=None, env=None, additional_env=None, arguments=None",
+            doc="What a process is made of.",
+        ),
     ),
-    Call(
-        "launch.actions.PopLaunchConfigurations",
-        "**kwargs",
-        "Action",
-        "pop_configurations",
-        doc="Goes back to the launch configurations of the last push.",
+    *_in(
+        "launch.conditions",
+        Call("IfCondition", "predicate_expression", doc="Has an action executed only if it is true (or 1)."),
+        Call("UnlessCondition", doc="Has an action executed only if it is false (or 0).", of="IfCondition"),
+        Call(
+            "LaunchConfigurationEquals",
+            "launch_configuration_name, expected_value",
+            doc="Has an action executed only if a launch configuration has that value.",
+        ),
+        Call(
+            "LaunchConfigurationNotEquals",
+            doc="Has an action executed only if a launch configuration has another value.",
+            of="LaunchConfigurationEquals",
+        ),
     ),
-    Call("launch.actions.SetEnvironmentVariable", "name, value, **kwargs", "Action", "set_env"),
-    Call("launch.actions.UnsetEnvironmentVariable", "name, **kwargs", "Action", "unset_env"),
-    Call(
-        "launch.actions.AppendEnvironmentVariable",
-        "name, value, prepend=False, separator=':', **kwargs",
-        "Action",
-        "append_env",
+    *_in(
+        "launch.launch_description_sources",
+        Call("AnyLaunchDescriptionSource", "launch_file_path", doc="A launch file of any format."),
+        Call(
+            "FrontendLaunchDescriptionSource",
+            "launch_file_path, *, method='interpreted frontend launch file', parser=None",
+            doc="A launch file in XML or YAML.",
+        ),
+        Call("PythonLaunchDescriptionSource", "launch_file_path", doc="A launch file in Python."),
     ),
-    Call("launch.actions.ResetEnvironment", "**kwargs", "Action", "reset_env"),
-    Call(
-        "launch.actions.PushEnvironment",
-        "**kwargs",
-        "Action",
-        "push_env",
-        doc="Keeps the environment, to come back to it.",
+    *_in(
+        "launch_xml.launch_description_sources",
+        Call("XMLLaunchDescriptionSource", "launch_file_path", doc="A launch file in XML."),
     ),
-    Call(
-        "launch.actions.PopEnvironment",
-        "**kwargs",
-        "Action",
-        "pop_env",
-        doc="Goes back to the environment of the last push.",
+    *_in(
+        "launch_yaml.launch_description_sources",
+        Call("YAMLLaunchDescriptionSource", "launch_file_path", doc="A launch file in YAML."),
     ),
-    Call("launch.actions.Log", "*, msg, level, **kwargs", "Action", "log", _LOG),
-    Call("launch.actions.LogInfo", "*, msg, **kwargs", "Log", "log", _LOG, doc="Prints a message."),
-    _same("launch.actions.LogDebug", "LogInfo", "log", "Prints a message for debugging.", _LOG),
-    _same("launch.actions.LogWarning", "LogInfo", "log", "Prints a warning.", _LOG),
-    _same("launch.actions.LogError", "LogInfo", "log", "Prints an error.", _LOG),
-    Call("launch.actions.TimerAction", "*, period, actions, cancel_on_shutdown=True, **kwargs", "Action", "timer"),
-    Call("launch.actions.EmitEvent", "*, event, **kwargs", "Action", "emit_event", doc="Makes an event happen."),
-    Call(
-        "launch.actions.Shutdown",
-        "*, reason='reason not given', **kwargs",
-        "EmitEvent",
-        "shutdown",
-        gives=("event",),
+    *_in(
+        "launch.event_handler",
+        Call("BaseEventHandler", "*, matcher=None, handle_once=False", doc="What other event handlers are made from."),
     ),
-    Call(
-        "launch.actions.RegisterEventHandler",
-        "event_handler, **kwargs",
-        "Action",
-        "event_handler",
-        doc="Has an event handler wait for its event.",
+    *_in(
+        "launch.event_handlers",
+        Call(
+            "OnActionEventBase",
+            "*, action_matcher=None, on_event=None, target_event_cls=None, target_action_cls=None, **kwargs",
+            doc="Executes actions upon the events of an action.",
+            of="BaseEventHandler",
+            gives=("matcher",),
+        ),
+        Call(
+            "OnExecutionComplete",
+            "*, target_action=None, on_completion, **kwargs",
+            doc="Executes actions once another one is done.",
+            of="OnActionEventBase",
+            gives=_OF_EVENT,
+        ),
+        Call(
+            "OnProcessExit",
+            "*, target_action=None, on_exit, **kwargs",
+            doc="Executes actions when a process ends.",
+            of="OnActionEventBase",
+            gives=_OF_EVENT,
+        ),
+        Call(
+            "OnProcessStart",
+            "*, target_action=None, on_start, **kwargs",
+            doc="Executes actions when a process starts.",
+            of="OnActionEventBase",
+            gives=_OF_EVENT,
+        ),
+        Call(
+            "OnProcessIO",
+            "*, target_action=None, on_stdin=None, on_stdout=None, on_stderr=None, **kwargs",
+            doc="Calls functions with what a process writes or reads.",
+            of="OnActionEventBase",
+            gives=_OF_EVENT,
+        ),
+        Call(
+            "OnIncludeLaunchDescription",
+            "**kwargs",
+            doc="Executes actions when a launch file is included.",
+            of="EventHandler",
+        ),
+        Call(
+            "OnShutdown",
+            "*, on_shutdown, **kwargs",
+            doc="Executes actions when the launch ends.",
+            of="BaseEventHandler",
+            gives=("matcher",),
+        ),
     ),
-    Call(
-        "launch.actions.UnregisterEventHandler",
-        "event_handler, **kwargs",
-        "Action",
-        "unregister_event_handler",
-        doc="Ends the wait of an event handler.",
+    *_in(
+        "launch_ros.event_handlers",
+        Call(
+            "OnStateTransition",
+            "*, entities, target_lifecycle_node=None, transition=None, start_state=None, goal_state=None, "
+            "matcher=None, **kwargs",
+            doc="Executes actions when a lifecycle node comes into a state.",
+            of="EventHandler",
+        ),
     ),
-    Call(
-        "launch.actions.OpaqueFunction",
-        "*, function, args=None, kwargs=None, **left_over_kwargs",
-        "Action",
-        "opaque",
-        doc="Calls a function with the context of the launch; the actions that it returns are executed.",
+    *_in(
+        "launch.substitutions",
+        Call("TextSubstitution", "*, text", doc="A text as it is."),
+        Call("LaunchConfiguration", "variable_name, *, default=None", "var"),
+        Call("EnvironmentVariable", "name, *, default_value=None", "env"),
+        Call("PathJoinSubstitution", "substitutions", "path-join"),
+        Call(
+            "PathSubstitution", "path", "path-join", doc="A path, to which `/` adds parts. Of a launch newer than 3.7."
+        ),
+        Call("Command", "command, *, on_stderr='fail'", "command"),
+        Call("PythonExpression", "expression, python_modules=('math',)", "eval"),
+        Call("ThisLaunchFileDir", kind="dirname"),
+        Call("ThisLaunchFile", kind="filename"),
+        Call("LaunchLogDir", kind="launch_log_dir"),
+        Call("AnonName", "name", "anon"),
+        Call("FindExecutable", "*, name", "find-exec"),
+        Call("FileContent", "path", "file-content"),
+        Call(
+            "LocalSubstitution",
+            "expression, description=None",
+            "local",
+            doc="What an event handler has in `context.locals`.",
+        ),
+        Call("StringJoinSubstitution", "substitutions, delimiter=''", "string-join"),
+        Call("IfElseSubstitution", "condition, if_value='', else_value=''", "if"),
+        Call("NotSubstitution", "value", "not"),
+        Call("AndSubstitution", "left, right", "and"),
+        Call("OrSubstitution", "left, right", "or"),
+        Call("AnySubstitution", "*args", "any"),
+        Call("AllSubstitution", "*args", "all"),
+        Call("EqualsSubstitution", "left, right", "equals"),
+        Call("NotEqualsSubstitution", "left, right", "not-equals"),
+        Call("ForEachVar", "name, *, default_value=None", "for-var"),
+        Call("ForLoopIndex", "name, **kwargs", "index"),
     ),
-    Call(
-        "launch.actions.OpaqueCoroutine",
-        "*, coroutine, args=None, kwargs=None, ignore_context=False, **left_over_kwargs",
-        "Action",
-        "opaque_coroutine",
-        doc="Runs a coroutine beside the launch.",
+    *_in(
+        "launch_ros.substitutions",
+        Call("FindPackage", "package", "find-pkg", doc="A folder of a package."),
+        Call("FindPackageShare", "package", "find-pkg-share"),
+        Call("FindPackagePrefix", "package", "find-pkg-prefix"),
+        Call("ExecutableInPackage", "executable, package", "exec-in-pkg"),
+        Call("Parameter", "name, *, default=None", "param"),
     ),
-    Call(
-        "launch.actions.ForLoop",
-        "length, *, function, name=None, **kwargs",
-        "Action",
-        "opaque",
-        doc="Calls a function with 0, 1, ... up to a length. Of a launch newer than 3.7.",
+    *_in(
+        "ament_index_python.packages",
+        Call("get_package_share_directory", "package_name, print_warning=True", "find-pkg-share"),
+        Call("get_package_share_path", "package_name, print_warning=True", "find-pkg-share"),
+        Call("get_package_prefix", "package_name", "find-pkg-prefix"),
     ),
-    Call(
-        "launch.actions.ForEach",
-        "input_values, *, function, **kwargs",
-        "Action",
-        "opaque",
-        doc="Calls a function with each set of values. Of a launch newer than 3.7.",
-    ),
-    Call(
-        "launch.actions.ExecuteProcess",
-        "*, cmd, prefix=None, name=None, cwd=None, env=None, additional_env=None, **kwargs",
-        "ExecuteLocal",
-        "executable",
-        _PROCESS,
-        ("process_description",),
-    ),
-    Call(
-        "launch.actions.ExecuteLocal",
-        "*, process_description, shell=False, sigterm_timeout='5', sigkill_timeout='5', emulate_tty=False, "
-        "output='log', output_format='[{this.process_description.final_name}] {line}', cached_output=False, "
-        "log_cmd=False, on_exit=None, respawn=False, respawn_delay=None, respawn_max_retries=-1, **kwargs",
-        "Action",
-        "executable",
-        doc="Starts the process of an `Executable`.",
-    ),
-    Call(
-        "launch_ros.actions.Node",
-        "*, executable, package=None, name=None, namespace=None, exec_name=None, parameters=None, remappings=None, "
-        "ros_arguments=None, arguments=None, **kwargs",
-        "ExecuteProcess",
-        "node",
-        _NODE,
-        ("cmd",),
-    ),
-    Call(
-        "launch_ros.actions.LifecycleNode",
-        "*, name, namespace, autostart=None, **kwargs",
-        "Node",
-        "lifecycle_node",
-        _NODE,
-        doc="Starts a lifecycle node.",
-    ),
-    Call(
-        "launch_ros.actions.ComposableNodeContainer",
-        "*, name, namespace, composable_node_descriptions=None, **kwargs",
-        "Node",
-        "node_container",
-        _NODE,
-    ),
-    Call(
-        "launch_ros.actions.LoadComposableNodes",
-        "*, composable_node_descriptions, target_container, **kwargs",
-        "Action",
-        "load_composable_node",
-        {"target": "target_container"},
-    ),
-    Call(
-        "launch_ros.actions.LifecycleTransition",
-        "*, lifecycle_node_names, transition_ids, **kwargs",
-        "Action",
-        "lifecycle_transition",
-        doc="Takes lifecycle nodes through transitions.",
-    ),
-    Call("launch_ros.actions.PushROSNamespace", "namespace, **kwargs", "Action", "push_ros_namespace"),
-    _same("launch_ros.actions.PushRosNamespace", "PushROSNamespace", "push_ros_namespace"),
-    Call("launch_ros.actions.ROSTimer", "*, period, actions, **kwargs", "TimerAction", "timer"),
-    _same("launch_ros.actions.RosTimer", "ROSTimer", "timer"),
-    Call("launch_ros.actions.SetParameter", "name, value, **kwargs", "Action", "set_parameter"),
-    Call("launch_ros.actions.SetParametersFromFile", "filename, **kwargs", "Action", "set_parameters_from_file"),
-    Call("launch_ros.actions.SetRemap", "src, dst, **kwargs", "Action", "set_remap", {"from": "src", "to": "dst"}),
-    Call("launch_ros.actions.SetUseSimTime", "value, **kwargs", "Action", "set_use_sim_time"),
-    Call("launch_ros.actions.SetROSLogDir", "new_log_dir, **kwargs", "Action", "set_ros_log_dir"),
 )
-_PARTS = (
-    Call(
-        "launch.LaunchDescription",
-        "initial_entities=None, *, deprecated_reason=None",
-        kind="inline",
-        doc="The actions of a launch file.",
-    ),
-    Call(
-        "launch_ros.descriptions.ComposableNode",
-        "*, package, plugin, name=None, namespace=None, parameters=None, remappings=None, extra_arguments=None, "
-        "condition=None",
-        kind="composable_node",
-        attributes={"pkg": "package"},
-    ),
-    Call(
-        "launch_ros.descriptions.ComposableLifecycleNode",
-        "*, autostart=False, **kwargs",
-        "ComposableNode",
-        "composable_node",
-        {"pkg": "package"},
-    ),
-    Call(
-        "launch.descriptions.Executable",
-        "*, cmd, prefix=None, name=None, cwd=None, env=None, additional_env=None, arguments=None",
-        doc="What a process is made of.",
-    ),
-    Call(
-        "launch_ros.descriptions.ParameterFile",
-        "param_file, *, allow_substs=False",
-        doc="A file of parameters, in which substitutions may be performed.",
-    ),
-    Call(
-        "launch_ros.descriptions.ParameterValue",
-        "value, *, value_type=None",
-        doc="The value of a parameter, of the type that is said.",
-    ),
-    Call("launch_ros.descriptions.Parameter", "name, value, *, value_type=None", doc="A parameter and its value."),
-    Call("launch.Condition", "*, predicate=None", doc="Whether an action is executed, as a function tells."),
-    Call(
-        "launch.conditions.IfCondition",
-        "predicate_expression",
-        doc="Has an action executed only if it is true (or 1).",
-    ),
-    _same("launch.conditions.UnlessCondition", "IfCondition", doc="Has an action executed only if it is false (or 0)."),
-    Call(
-        "launch.conditions.LaunchConfigurationEquals",
-        "launch_configuration_name, expected_value",
-        doc="Has an action executed only if a launch configuration has that value.",
-    ),
-    _same(
-        "launch.conditions.LaunchConfigurationNotEquals",
-        "LaunchConfigurationEquals",
-        doc="Has an action executed only if a launch configuration has another value.",
-    ),
-    Call(
-        "launch.LaunchDescriptionSource",
-        "launch_description=None, location='<string>', method='unspecified mechanism from a script'",
-        doc="A launch description that the file itself makes.",
-    ),
-    Call(
-        "launch.launch_description_sources.AnyLaunchDescriptionSource",
-        "launch_file_path",
-        doc="A launch file of any format.",
-    ),
-    Call(
-        "launch.launch_description_sources.FrontendLaunchDescriptionSource",
-        "launch_file_path, *, method='interpreted frontend launch file', parser=None",
-        doc="A launch file in XML or YAML.",
-    ),
-    Call(
-        "launch.launch_description_sources.PythonLaunchDescriptionSource",
-        "launch_file_path",
-        doc="A launch file in Python.",
-    ),
-    Call(
-        "launch_xml.launch_description_sources.XMLLaunchDescriptionSource",
-        "launch_file_path",
-        doc="A launch file in XML.",
-    ),
-    Call(
-        "launch_yaml.launch_description_sources.YAMLLaunchDescriptionSource",
-        "launch_file_path",
-        doc="A launch file in YAML.",
-    ),
-)
-_HANDLERS = (
-    Call(
-        "launch.event_handler.BaseEventHandler",
-        "*, matcher=None, handle_once=False",
-        doc="What other event handlers are made from.",
-    ),
-    Call(
-        "launch.EventHandler",
-        "*, matcher, entities=None, handle_once=False",
-        doc="Executes actions upon the events that match.",
-    ),
-    Call(
-        "launch.event_handlers.OnActionEventBase",
-        "*, action_matcher=None, on_event=None, target_event_cls=None, target_action_cls=None, **kwargs",
-        "BaseEventHandler",
-        gives=("matcher",),
-        doc="Executes actions upon the events of an action.",
-    ),
-    Call(
-        "launch.event_handlers.OnExecutionComplete",
-        "*, target_action=None, on_completion, **kwargs",
-        "OnActionEventBase",
-        gives=_OF_EVENT,
-        doc="Executes actions once another one is done.",
-    ),
-    Call(
-        "launch.event_handlers.OnProcessExit",
-        "*, target_action=None, on_exit, **kwargs",
-        "OnActionEventBase",
-        gives=_OF_EVENT,
-        doc="Executes actions when a process ends.",
-    ),
-    Call(
-        "launch.event_handlers.OnProcessStart",
-        "*, target_action=None, on_start, **kwargs",
-        "OnActionEventBase",
-        gives=_OF_EVENT,
-        doc="Executes actions when a process starts.",
-    ),
-    Call(
-        "launch.event_handlers.OnProcessIO",
-        "*, target_action=None, on_stdin=None, on_stdout=None, on_stderr=None, **kwargs",
-        "OnActionEventBase",
-        gives=_OF_EVENT,
-        doc="Calls functions with what a process writes or reads.",
-    ),
-    Call(
-        "launch.event_handlers.OnIncludeLaunchDescription",
-        "**kwargs",
-        "EventHandler",
-        doc="Executes actions when a launch file is included.",
-    ),
-    Call(
-        "launch.event_handlers.OnShutdown",
-        "*, on_shutdown, **kwargs",
-        "BaseEventHandler",
-        gives=("matcher",),
-        doc="Executes actions when the launch ends.",
-    ),
-    Call(
-        "launch_ros.event_handlers.OnStateTransition",
-        "*, entities, target_lifecycle_node=None, transition=None, start_state=None, goal_state=None, matcher=None, "
-        "**kwargs",
-        "EventHandler",
-        doc="Executes actions when a lifecycle node comes into a state.",
-    ),
-)
-_SUBSTITUTIONS = (
-    Call("launch.substitutions.TextSubstitution", "*, text", doc="A text as it is."),
-    Call("launch.substitutions.LaunchConfiguration", "variable_name, *, default=None", kind="var"),
-    Call("launch.substitutions.EnvironmentVariable", "name, *, default_value=None", kind="env"),
-    Call("launch.substitutions.PathJoinSubstitution", "substitutions", kind="path-join"),
-    Call(
-        "launch.substitutions.PathSubstitution",
-        "path",
-        kind="path-join",
-        doc="A path, to which `/` adds parts. Of a launch newer than 3.7.",
-    ),
-    Call("launch.substitutions.Command", "command, *, on_stderr='fail'", kind="command"),
-    Call("launch.substitutions.PythonExpression", "expression, python_modules=('math',)", kind="eval"),
-    Call("launch.substitutions.ThisLaunchFileDir", kind="dirname"),
-    Call("launch.substitutions.ThisLaunchFile", kind="filename"),
-    Call("launch.substitutions.LaunchLogDir", kind="launch_log_dir"),
-    Call("launch.substitutions.AnonName", "name", kind="anon"),
-    Call("launch.substitutions.FindExecutable", "*, name", kind="find-exec"),
-    Call("launch.substitutions.FileContent", "path", kind="file-content"),
-    Call(
-        "launch.substitutions.LocalSubstitution",
-        "expression, description=None",
-        kind="local",
-        doc="What an event handler has in `context.locals`.",
-    ),
-    Call("launch.substitutions.StringJoinSubstitution", "substitutions, delimiter=''", kind="string-join"),
-    Call("launch.substitutions.IfElseSubstitution", "condition, if_value='', else_value=''", kind="if"),
-    Call("launch.substitutions.NotSubstitution", "value", kind="not"),
-    Call("launch.substitutions.AndSubstitution", "left, right", kind="and"),
-    Call("launch.substitutions.OrSubstitution", "left, right", kind="or"),
-    Call("launch.substitutions.AnySubstitution", "*args", kind="any"),
-    Call("launch.substitutions.AllSubstitution", "*args", kind="all"),
-    Call("launch.substitutions.EqualsSubstitution", "left, right", kind="equals"),
-    Call("launch.substitutions.NotEqualsSubstitution", "left, right", kind="not-equals"),
-    Call("launch.substitutions.ForEachVar", "name, *, default_value=None", kind="for-var"),
-    Call("launch.substitutions.ForLoopIndex", "name, **kwargs", kind="index"),
-    Call("launch_ros.substitutions.FindPackage", "package", kind="find-pkg", doc="A folder of a package."),
-    Call("launch_ros.substitutions.FindPackageShare", "package", kind="find-pkg-share"),
-    Call("launch_ros.substitutions.FindPackagePrefix", "package", kind="find-pkg-prefix"),
-    Call("launch_ros.substitutions.ExecutableInPackage", "executable, package", kind="exec-in-pkg"),
-    Call("launch_ros.substitutions.Parameter", "name, *, default=None", kind="param"),
-)
-_FUNCTIONS = (
-    Call(
-        "ament_index_python.packages.get_package_share_directory",
-        "package_name, print_warning=True",
-        kind="find-pkg-share",
-    ),
-    Call(
-        "ament_index_python.packages.get_package_share_path",
-        "package_name, print_warning=True",
-        kind="find-pkg-share",
-    ),
-    Call("ament_index_python.packages.get_package_prefix", "package_name", kind="find-pkg-prefix"),
-)
-CALLS = (*_ACTIONS, *_PARTS, *_HANDLERS, *_SUBSTITUTIONS, *_FUNCTIONS)
 BY_SHORT_NAME = {each.short_name: each for each in reversed(CALLS)}
 """`Parameter` is that of `launch_ros.descriptions`."""
 CHILDREN = {

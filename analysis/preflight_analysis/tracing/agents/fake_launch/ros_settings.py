@@ -13,6 +13,10 @@ class PushROSNamespace(Action):
     pass
 
 
+class PushRosNamespace(PushROSNamespace):
+    pass
+
+
 class ROSTimer(TimerAction):
     def preflight_take(self, given: Any, left: Any) -> None:
         super().__init__(period=given.period, actions=given.actions, **left)

@@ -31,6 +31,7 @@ from . import (
     typed,
     worded,
 )
+from .api import CALLS
 from .base import RECORDER
 
 
@@ -48,35 +49,28 @@ def _named(module: Any, *names: str) -> dict[str, Any]:
     return {name: getattr(module, name) for name in names}
 
 
-_SOURCES = _named(
-    includes,
-    "AnyLaunchDescriptionSource",
-    "FrontendLaunchDescriptionSource",
-    "PythonLaunchDescriptionSource",
-    "LaunchDescriptionSource",
+_WITH_CALLS = (
+    *(actions, base, boolean_substitutions, conditions, events, includes, processes, ros_nodes, ros_parameters),
+    *(ros_settings, ros_substitutions, settings, substitutions),
 )
-_ACTIONS = {
-    k: v
-    for k, v in _public(actions, includes, processes, settings).items()
-    if k not in _SOURCES and not k.endswith("Source")
+_CLASSES = {
+    (name, made.preflight_call.kind): made
+    for module in _WITH_CALLS
+    for name, made in _public(module).items()
+    if issubclass(made, base.Made)
 }
-_ACTIONS.pop("Executable")
-_ROS_SUBSTITUTIONS = _public(ros_substitutions)
-_SUBSTITUTIONS = {
-    "TextSubstitution": base.TextSubstitution,
-    **{
-        k: v for k, v in _public(boolean_substitutions, substitutions, worded).items() if k not in ("Worded", "Written")
-    },
-}
-_HANDLERS = {k: v for k, v in _public(events).items() if k.startswith("On")}
+
+
+def _declared(module: str) -> dict[str, Any]:
+    """The classes that `api` declares of a module of launch."""
+    calls = [call for call in CALLS if call.name == f"{module}.{call.short_name}"]
+    return {call.short_name: _CLASSES[call.short_name, call.kind] for call in calls}
+
+
+_SOURCES = {**_declared("launch.launch_description_sources"), **_named(includes, "LaunchDescriptionSource")}
+_HANDLERS = _declared("launch.event_handlers")
 _PROCESS = {k: v for k, v in _public(events).items() if "Process" in k and k not in _HANDLERS}
 _MATCH = dict.fromkeys(("matches_pid", "matches_name", "matches_executable"), events.matches_anything)
-_DESCRIPTIONS = {
-    **_named(ros_nodes, "ComposableLifecycleNode", "ComposableNode"),
-    **_named(ros_parameters, "Parameter", "ParameterFile", "ParameterValue"),
-}
-_ROS_ACTIONS = {k: v for k, v in _public(ros_nodes, ros_settings).items() if k not in _DESCRIPTIONS}
-_ROS_ACTIONS["PushRosNamespace"] = ros_settings.PushROSNamespace
 _ENTITY = (base.LaunchDescriptionEntity, base.LaunchDescription)
 _CORE = _named(
     base,
@@ -186,7 +180,7 @@ TABLE: dict[str, dict[str, Any]] = {
         "LaunchIntrospector": library.LaunchIntrospector,
     },
     "launch.action": {"Action": base.Action},
-    "launch.actions": _ACTIONS,
+    "launch.actions": _declared("launch.actions"),
     "launch.condition": {"Condition": base.Condition},
     "launch.conditions": {
         **_public(conditions),
@@ -237,12 +231,12 @@ TABLE: dict[str, dict[str, Any]] = {
         "SomeSubstitutionsType_types_tuple": base.SomeSubstitutionsType_types_tuple,
     },
     "launch.substitution": {"Substitution": base.Substitution},
-    "launch.substitutions": _SUBSTITUTIONS,
+    "launch.substitutions": {**_declared("launch.substitutions"), **_named(worded, "SubstitutionFailure")},
     "launch.utilities": _UTILITIES,
     "launch.utilities.type_utils": {**{k: v for k, v in vars(typed).items() if not k.startswith("_")}, **_VALUE_TYPES},
     "launch.utilities.typing_file_path": {"FilePath": Any},
     "launch_ros": {},
-    "launch_ros.actions": _ROS_ACTIONS,
+    "launch_ros.actions": _declared("launch_ros.actions"),
     "launch_ros.actions.lifecycle_transition": {
         "LifecycleTransition": ros_nodes.LifecycleTransition,
         **_named(library, "match_node_name_goal", "match_node_name_start_goal"),
@@ -256,7 +250,7 @@ TABLE: dict[str, dict[str, Any]] = {
         **_named(library, "NodeActionExtension", "get_extensions", "instantiate_extension"),
         "g_entry_points_impl": None,
     },
-    "launch_ros.descriptions": _DESCRIPTIONS,
+    "launch_ros.descriptions": _declared("launch_ros.descriptions"),
     "launch_ros.event_handlers": {"OnStateTransition": events.OnStateTransition},
     "launch_ros.events": _MATCHES_NODE,
     "launch_ros.events.lifecycle": {**_ROS_EVENTS, **_MATCHES_NODE},
@@ -268,7 +262,7 @@ TABLE: dict[str, dict[str, Any]] = {
         "SomeParameterValue_types_tuple": (*base.SomeSubstitutionsType_types_tuple, *typed.AllowedTypesTuple),
     },
     "launch_ros.remap_rule_type": dict.fromkeys(("RemapRules", "SomeRemapRules", "RemapRule", "SomeRemapRule"), Any),
-    "launch_ros.substitutions": _ROS_SUBSTITUTIONS,
+    "launch_ros.substitutions": _declared("launch_ros.substitutions"),
     "launch_ros.ros_adapters": _named(library, "ROSAdapter", "get_ros_adapter", "get_ros_node"),
     "launch_ros.utilities": _ROS_UTILITIES,
     "launch_ros.utilities.evaluate_parameters": _named(library, "evaluate_parameter_dict", "evaluate_parameters"),
