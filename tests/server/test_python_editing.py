@@ -174,6 +174,9 @@ WHOLE = [
     ),
     ("    return os.path.join(get_package_share_directory('robot'), '|')\n", "launch/"),
     ("    return PathJoinSubstitution([FindPackageShare('robot'), 'launch', '|'])\n", "outer.launch.xml"),
+    ("    return Node(executable='a', output='|')\n", "screen"),
+    ("    return LogInfo(level='|', msg='')\n", "WARNING"),
+    ("    return SetEnvironmentVariable('HOM|', 'a')\n", "HOME"),
 ]
 HALF = [
     ("    return LaunchDescription([\n        Node(package='robot', exe|\n", "executable required"),

@@ -30,6 +30,7 @@ _KINDS: Mapping[PythonKind, Kind] = {
     "executable": "executable",
     "component": "component",
     "namespace": "namespace",
+    "variable": "variable",
     "argument": "argument",
     "parameter": "parameter",
     "remap-from": "remap-from",
@@ -60,6 +61,8 @@ def complete_python(
         return Completion(span, tuple(_paths(analysis, document.path, found, folder + slash)))
     if trigger == "/" and kind not in ("remap-from", "remap-to", "namespace"):
         return None
+    if kind == "choice":
+        return Completion(word, tuple(Item("value", each, each) for each in found.choices))
     if kind == "used":
         return Completion(word, tuple(_arguments(analysis, document.path, found)))
     asked = Asked(analysis, launch_file, offset, found.place, lookup)

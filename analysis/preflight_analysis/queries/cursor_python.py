@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Literal
 
 from tree_sitter import Node
@@ -18,9 +19,12 @@ from tree_sitter import Node
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Attribute, Element, SpannedText
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.python_api import NAMES, NODES
+from preflight_analysis.evaluation.ros2.actions.registry import tags
+from preflight_analysis.launch import schema
+from preflight_analysis.launch.python_api import KINDS, NAMES, made_by, parameter_of, positional
 from preflight_analysis.launch.python_source import open_brackets
 from preflight_analysis.launch.python_tree import PythonTree, arguments, called, written
+from preflight_analysis.launch.schema import Kind
 from preflight_analysis.queries.cursor import Place
 
 PythonKind = Literal[
@@ -28,6 +32,8 @@ PythonKind = Literal[
     "executable",
     "component",
     "namespace",
+    "variable",
+    "choice",
     "used",
     "argument",
     "parameter",
@@ -37,19 +43,23 @@ PythonKind = Literal[
     "yaml-file",
     "file",
 ]
-"""`used`: the name of a launch argument where its value is taken; `argument`: where an include passes it."""
+"""`choice`: one of those of the place; `used`: the name of a launch argument where its value is taken; `argument`:
+where an include passes it."""
 
 _STRING = re.compile(
     r"""(?P<quote>\"\"\"|'''|"|')(?P<text>(?:(?!(?P=quote))(?:[^\\]|\\.))*)(?P<end>(?P=quote))?|\#.*"""
 )
 _WORD = re.compile(r"[\w./~-]*")
 _CODE = re.compile(r"[,=(){}\[\]:]")
-_PLACES: Mapping[str, PythonKind] = {
+_PLACES: Mapping[Kind, PythonKind] = {
     "package": "package",
     "executable": "executable",
-    "plugin": "component",
+    "component": "component",
     "namespace": "namespace",
+    "variable": "variable",
+    "text": "choice",
 }
+"""What can stand in a text, by what the other formats have there."""
 _NAMES: Mapping[str, PythonKind] = {"find-pkg-share": "package", "find-pkg-prefix": "package", "var": "used"}
 """What is named where there would be such a substitution."""
 _CONFIGURATIONS = "launch_configurations"
@@ -67,6 +77,7 @@ class PythonPlace:
     place: Place
     tree: PythonTree
     before: str = ""
+    choices: tuple[str, ...] = ()
 
 
 def place_at_python(text: str, offset: int) -> PythonPlace | None:
@@ -181,21 +192,30 @@ class _Reader:
             return self._answer(_NAMES[command])
         if key == "0" and name == "get" and _of_context(call):
             return self._answer("used")
-        if name in NODES or "executable" in given or "plugin" in given:
-            kind = _PLACES.get(key or "")
-            return self._answer(kind, self._node(call)) if kind is not None else None
         if name == "join":
             return self._path(string, around)
-        return None
+        asked = next((each for each, value in self._given(call) if value == string), None)
+        kind = _PLACES.get(asked.kind) if asked is not None else None
+        if asked is None or kind is None or (kind == "choice" and not asked.choices):
+            return None
+        return replace(self._answer(kind, self._tag(call)), choices=asked.choices)
 
-    def _node(self, call: Node) -> Element:
-        """A call that starts a node, as the tag that would."""
-        given = arguments(call)
-        names = {"package": "pkg", "executable": "exec", "plugin": "plugin", "name": "name", "namespace": "namespace"}
-        attributes = [self._attribute(ours, given[theirs]) for theirs, ours in names.items() if theirs in given]
-        children = [self._named("param", "name", key) for key in self._keys(given.get("parameters"))]
-        kind = NODES.get(called(call), "node")
-        return self._element(kind, call, [each for each in attributes if each is not None], children)
+    def _given(self, call: Node) -> Iterator[tuple[schema.Attribute, Node]]:
+        """What a call is given, by the attributes of the tag that would say the same."""
+        given, kind = arguments(call), _kind(call)
+        made, tag = made_by(kind), tags().get(kind)
+        by_place = {str(n): name for n, name in enumerate(positional(made))}
+        by_name = {by_place.get(key, key): value for key, value in given.items()}
+        for attribute in tag.attributes.values() if tag is not None else ():
+            value = by_name.get(parameter_of(made, attribute.name))
+            if value is not None:
+                yield attribute, value
+
+    def _tag(self, call: Node) -> Element:
+        """A call as the tag that would say the same."""
+        attributes = [self._attribute(each.name, value) for each, value in self._given(call)]
+        children = [self._named("param", "name", key) for key in self._keys(arguments(call).get("parameters"))]
+        return self._element(_kind(call), call, [each for each in attributes if each is not None], children)
 
     def _keys(self, node: Node | None) -> Iterator[Node]:
         """The keys of the maps in a list, or of one, and the first texts of pairs."""
@@ -246,13 +266,13 @@ class _Reader:
         own = Element("", self._word, (), (), self._word, self._word)
         match written(name), end:
             case "parameters", "from":
-                return self._answer("parameter", own, (self._node(call),), before)
+                return self._answer("parameter", own, (self._tag(call),), before)
             case "remappings", "from":
-                return self._answer("remap-from", own, (self._node(call),))
+                return self._answer("remap-from", own, (self._tag(call),))
             case "remappings", "to" if pair is not None and other is not None:
                 written_from = self._attribute("from", other)
                 remap = self._element("remap", pair, [written_from] if written_from is not None else [], ())
-                return self._answer("remap-to", remap, (self._node(call),))
+                return self._answer("remap-to", remap, (self._tag(call),))
             case "launch_arguments", "from":
                 return self._answer("argument", own, (self._include(call),))
         return None
@@ -292,6 +312,13 @@ class _Reader:
     def _element(self, tag: str, node: Node, attributes: Iterable[Attribute], children: Iterable[Element]) -> Element:
         span = self._tree.span(node)
         return Element(tag, span, tuple(attributes), tuple(children), span, span)
+
+
+def _kind(call: Node) -> str:
+    """What a call makes; of one that is not known what it seems to, by what it is given."""
+    given = arguments(call)
+    seems = "node" if "executable" in given else "composable_node" if "plugin" in given else ""
+    return KINDS.get(called(call)) or seems
 
 
 def _of_context(call: Node) -> bool:

@@ -48,7 +48,7 @@ _OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
 _RELEASES = "Humble, Jazzy, Kilted or Rolling"
 _OLD_KEYWORDS = frozenset(("node_executable", "node_name", "node_namespace", "node_plugin"))
 """Of nodes and components, deprecated in Foxy."""
-_ARGUMENTS = ("() missing", "() got an unexpected keyword argument")
+_ARGUMENTS = ("() missing", "() got an unexpected keyword argument", "() got multiple values for")
 _LAUNCH = frozenset((
     "launch", "launch_ros", "launch_xml", "launch_yaml", "launch_testing", "launch_testing_ros",
     "launch_testing_ament_cmake",
