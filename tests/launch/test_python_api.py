@@ -11,16 +11,19 @@ from preflight_analysis.launch.python_api import (
     BY_NAME,
     COMMANDS,
     NODES,
+    PARAMETERS,
     Call,
     Parameter,
     call_named,
     made_by,
+    own_doc,
     parameters,
     positional,
 )
 
 LISTS = Path(__file__).parents[2] / "fixtures" / "ros2" / "launch_names"
 _DEFAULT = re.compile(r"=(?:'[^']*'|\([^)]*\)|[^,]*)")
+_ELSEWHERE = ("launch_ros.descriptions.Parameter",)
 OURS_ONLY = ("launch.event_handlers.OnActionEventBase", "launch.event_handler.BaseEventHandler")
 """They are not in the lists, or differ in what no launch file writes."""
 
@@ -41,6 +44,23 @@ def test_a_call_takes_what_it_does_in_the_newest_distribution_that_has_it(call: 
     known = [each for each in takes if each is not None]
     above = next((each for each in BY_NAME.values() if call.inherits and each.short_name == call.of), call)
     assert not known or _DEFAULT.sub("=", above.takes) in known
+
+
+@pytest.mark.parametrize("call", BY_NAME.values(), ids=lambda c: c.name)
+def test_what_newer_distributions_have_alone_is_said_to_be_of_them(call: Call) -> None:
+    module = call.name.rpartition(".")[0]
+    lists = _lists()
+    first = {"jazzy": "jazzy", "rolling": "jazzy", "kilted, new": "kilted", "rolling, new": "rolling"}
+    takes = {name: names.get(module, {}).get(call.short_name) for name, names in lists.items()}
+    having = [first[name] for name in first if takes.get(name) is not None]
+    if takes["humble"] is None and having and call.name not in _ELSEWHERE:
+        assert call.since == having[0]
+    else:
+        assert call.since == ""
+    newest = {each.name for each in parameters(call) or ()} if takes["humble"] is not None else set()
+    for name in newest & {word.split("=")[0] for word in _DEFAULT.sub("=", call.takes).split(", ")}:
+        if name not in {word.rstrip("=") for word in (takes["humble"] or "").split(", ")}:
+            assert (own_doc(call, name) or PARAMETERS[name]).endswith("or newer."), name
 
 
 def test_the_lists_are_looked_at() -> None:

@@ -388,7 +388,7 @@ _NODES = """
         ('Node(package="p", executable="a", name="one", zzz=1)', "'zzz'"),
         ('Node(package="p", executable="a", name="one", cmd=["a"])', "'cmd'"),
         ('launch.actions.execute_process.ExecuteProcess(cmd=["ls"], nmae="x")', "'nmae'; did you mean 'name'?"),
-        ('launch.event_handlers.OnProcessStart(on_event=[], on_start=[])', "'on_event'"),
+        ("launch.event_handlers.OnProcessStart(on_event=[], on_start=[])", "'on_event'"),
     ],
 )
 def test_a_keyword_that_a_class_of_launch_does_not_take(call: str, message: str) -> None:

@@ -128,7 +128,8 @@ def _imported(text: str) -> dict[str, str]:
 
 def _of_call(call: Call) -> str:
     tag = entities()[call.kind].tag if call.kind in entities() else None
-    return call.doc or (tag.doc if tag is not None else SUBSTITUTIONS_ROS2[call.kind][1])
+    doc = call.doc or (tag.doc if tag is not None else SUBSTITUTIONS_ROS2[call.kind][1])
+    return f"{doc} Of {call.since.capitalize()} or newer." if call.since else doc
 
 
 def _of_parameter(call: Call, name: str) -> str:

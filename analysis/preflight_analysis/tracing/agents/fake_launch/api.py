@@ -6,7 +6,7 @@ are proposed, explained, refused or found again in the text (`launch/python_api.
 
 from __future__ import annotations
 
-from typing import Iterator, Mapping, NamedTuple
+from typing import Any, Iterator, Mapping, NamedTuple
 
 
 class Call(NamedTuple):
@@ -25,6 +25,8 @@ class Call(NamedTuple):
     """The attributes of that kind whose parameter has another name."""
     gives: tuple[str, ...] = ()
     """What it gives to the class `of` itself."""
+    since: str = ""
+    """The first distribution that has it, where Humble has not."""
 
     @property
     def short_name(self) -> str:
@@ -37,8 +39,8 @@ class Call(NamedTuple):
         return bool(self.of) and not self.takes
 
 
-def _action(name: str, kind: str, takes: str = "", doc: str = "", attributes: Mapping[str, str] = {}) -> Call:
-    return Call(name, f"{takes}, **kwargs" if takes else "**kwargs", kind, doc, "Action", attributes)
+def _action(name: str, kind: str, takes: str = "", **more: Any) -> Call:
+    return Call(name, f"{takes}, **kwargs" if takes else "**kwargs", kind, of="Action", **more)
 
 
 def _in(module: str, *calls: Call) -> Iterator[Call]:
@@ -110,11 +112,18 @@ CALLS = (
         _action("ResetEnvironment", "reset_env"),
         _action("PushEnvironment", "push_env", doc="Keeps the environment, to come back to it."),
         _action("PopEnvironment", "pop_env", doc="Goes back to the environment of the last push."),
-        _action("Log", "log", "*, msg, level", attributes=_LOG),
+        _action("Log", "log", "*, msg, level", attributes=_LOG, since="rolling"),
         Call("LogInfo", "*, msg, **kwargs", "log", doc="Prints a message.", of="Log", attributes=_LOG),
-        Call("LogDebug", kind="log", doc="Prints a message for debugging.", of="LogInfo", attributes=_LOG),
-        Call("LogWarning", kind="log", doc="Prints a warning.", of="LogInfo", attributes=_LOG),
-        Call("LogError", kind="log", doc="Prints an error.", of="LogInfo", attributes=_LOG),
+        Call(
+            "LogDebug",
+            kind="log",
+            doc="Prints a message to debug.",
+            of="LogInfo",
+            attributes=_LOG,
+            since="rolling",
+        ),
+        Call("LogWarning", kind="log", doc="Prints a warning.", of="LogInfo", attributes=_LOG, since="rolling"),
+        Call("LogError", kind="log", doc="Prints an error.", of="LogInfo", attributes=_LOG, since="rolling"),
         _action("TimerAction", "timer", "*, period, actions, cancel_on_shutdown=True"),
         _action("EmitEvent", "emit_event", "*, event", doc="Makes an event happen."),
         Call("Shutdown", "*, reason='reason not given', **kwargs", "shutdown", of="EmitEvent", gives=("event",)),
@@ -145,13 +154,15 @@ CALLS = (
             "ForLoop",
             "opaque",
             "length, *, function, name=None",
-            doc="Calls a function with 0, 1, ... up to a length. Of a launch newer than 3.7.",
+            doc="Calls a function with 0, 1, ... up to a length.",
+            since="kilted",
         ),
         _action(
             "ForEach",
             "opaque",
             "input_values, *, function",
-            doc="Calls a function with each set of values. Of a launch newer than 3.7.",
+            doc="Calls a function with each set of values.",
+            since="kilted",
         ),
         Call(
             "ExecuteProcess",
@@ -207,16 +218,17 @@ CALLS = (
             "lifecycle_transition",
             "*, lifecycle_node_names, transition_ids",
             doc="Takes lifecycle nodes through transitions.",
+            since="jazzy",
         ),
-        _action("PushROSNamespace", "push_ros_namespace", "namespace"),
+        _action("PushROSNamespace", "push_ros_namespace", "namespace", since="jazzy"),
         Call("PushRosNamespace", kind="push_ros_namespace", of="PushROSNamespace"),
-        Call("ROSTimer", "*, period, actions, **kwargs", "timer", of="TimerAction"),
+        Call("ROSTimer", "*, period, actions, **kwargs", "timer", of="TimerAction", since="jazzy"),
         Call("RosTimer", kind="timer", of="ROSTimer"),
         _action("SetParameter", "set_parameter", "name, value"),
         _action("SetParametersFromFile", "set_parameters_from_file", "filename"),
         _action("SetRemap", "set_remap", "src, dst", attributes={"from": "src", "to": "dst"}),
         _action("SetUseSimTime", "set_use_sim_time", "value"),
-        _action("SetROSLogDir", "set_ros_log_dir", "new_log_dir"),
+        _action("SetROSLogDir", "set_ros_log_dir", "new_log_dir", since="jazzy"),
     ),
     *_in(
         "launch_ros.descriptions",
@@ -233,6 +245,7 @@ CALLS = (
             "composable_node",
             of="ComposableNode",
             attributes={"pkg": "package"},
+            since="kilted",
         ),
         Call(
             "ParameterFile",
@@ -354,34 +367,32 @@ CALLS = (
         Call("LaunchConfiguration", "variable_name, *, default=None", "var"),
         Call("EnvironmentVariable", "name, *, default_value=None", "env"),
         Call("PathJoinSubstitution", "substitutions", "path-join"),
-        Call(
-            "PathSubstitution", "path", "path-join", doc="A path, to which `/` adds parts. Of a launch newer than 3.7."
-        ),
+        Call("PathSubstitution", "path", "path-join", doc="A path, to which `/` adds parts.", since="kilted"),
         Call("Command", "command, *, on_stderr='fail'", "command"),
         Call("PythonExpression", "expression, python_modules=('math',)", "eval"),
         Call("ThisLaunchFileDir", kind="dirname"),
         Call("ThisLaunchFile", kind="filename"),
-        Call("LaunchLogDir", kind="launch_log_dir"),
+        Call("LaunchLogDir", kind="launch_log_dir", since="jazzy"),
         Call("AnonName", "name", "anon"),
         Call("FindExecutable", "*, name", "find-exec"),
-        Call("FileContent", "path", "file-content"),
+        Call("FileContent", "path", "file-content", since="jazzy"),
         Call(
             "LocalSubstitution",
             "expression, description=None",
             "local",
             doc="What an event handler has in `context.locals`.",
         ),
-        Call("StringJoinSubstitution", "substitutions, delimiter=''", "string-join"),
-        Call("IfElseSubstitution", "condition, if_value='', else_value=''", "if"),
+        Call("StringJoinSubstitution", "substitutions, delimiter=''", "string-join", since="kilted"),
+        Call("IfElseSubstitution", "condition, if_value='', else_value=''", "if", since="jazzy"),
         Call("NotSubstitution", "value", "not"),
         Call("AndSubstitution", "left, right", "and"),
         Call("OrSubstitution", "left, right", "or"),
-        Call("AnySubstitution", "*args", "any"),
-        Call("AllSubstitution", "*args", "all"),
-        Call("EqualsSubstitution", "left, right", "equals"),
-        Call("NotEqualsSubstitution", "left, right", "not-equals"),
-        Call("ForEachVar", "name, *, default_value=None", "for-var"),
-        Call("ForLoopIndex", "name, **kwargs", "index"),
+        Call("AnySubstitution", "*args", "any", since="jazzy"),
+        Call("AllSubstitution", "*args", "all", since="jazzy"),
+        Call("EqualsSubstitution", "left, right", "equals", since="jazzy"),
+        Call("NotEqualsSubstitution", "left, right", "not-equals", since="jazzy"),
+        Call("ForEachVar", "name, *, default_value=None", "for-var", since="kilted"),
+        Call("ForLoopIndex", "name, **kwargs", "index", since="kilted"),
     ),
     *_in(
         "launch_ros.substitutions",
@@ -421,6 +432,7 @@ PARAMETERS = {
     "allow_substs": "Whether the launch performs the substitutions in the file.",
     "args": "What the function gets behind the context, in order.",
     "arguments": "Command-line arguments for the node, one an item.",
+    "LifecycleNode.autostart": "Configure and activate the node once it is there. Of Kilted or newer.",
     "autostart": "Configure and activate the node once it is there.",
     "cached_output": "Keep all that the process prints, for event handlers.",
     "choices": "The values that the argument may have.",
@@ -432,6 +444,7 @@ PARAMETERS = {
     "condition": "The condition.",
     "coroutine": "The coroutine function.",
     "cwd": "The working directory of the process.",
+    "Parameter.default": "The text where nothing sets it. Of Jazzy or newer.",
     "default": "The text where there is none.",
     "default_value": "The text where there is none.",
     "delimiter": "The text between.",
@@ -491,9 +504,10 @@ PARAMETERS = {
     "prefix": "A command to put before the process's own, such as `gdb -ex run --args`.",
     "print_warning": "Whether a share folder that does not exist is warned of.",
     "process_description": "The `Executable`.",
-    "python_modules": "Modules that the expression uses.",
+    "python_modules": "Modules that the expression uses. Of Jazzy or newer.",
     "remappings": "The remaps: a list of pairs of a name and what it becomes.",
     "right": "The second of both.",
+    "ExecuteLocal.respawn_max_retries": "How often to start it again; below 0 without end. Of Jazzy or newer.",
     "ros_arguments": "Arguments that follow `--ros-args`, one an item.",
     "start_state": "The state that the node leaves.",
     "substitutions": "The parts.",
