@@ -45,18 +45,6 @@ class LogInfo(Log):
         super().__init__(msg=given.msg, **{"level": "INFO", **left})
 
 
-class LogDebug(LogInfo):
-    pass
-
-
-class LogWarning(LogInfo):
-    pass
-
-
-class LogError(LogInfo):
-    pass
-
-
 class TimerAction(Action):
     def preflight_take(self, given: Any, left: Any) -> None:
         super().__init__(**left)

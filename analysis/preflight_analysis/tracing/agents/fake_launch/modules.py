@@ -14,8 +14,7 @@ from typing import Any, Optional
 
 from ..anything import member
 from ..missing_modules import MissingModules
-from . import settings
-from .base import RECORDER
+from .base import RECORDER, Action
 from .tables import FALLBACK, FOLDERS, SIBLINGS, TABLE
 
 _TOP = {name.partition(".")[0] for name in TABLE}
@@ -43,7 +42,7 @@ def module_with(name: str) -> str:
     return min(having, key=lambda module: (module.count("."), module), default="")
 
 
-class _Anything(settings.PushEnvironment):
+class _Anything(Action):
     """Whatever tests are made of: it starts no node."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:

@@ -1,4 +1,4 @@
-"""Those of `launch_ros.actions` that hold for the nodes after them."""
+"""Those of `launch_ros.actions` that hold for the nodes after them and do more than keep what they are given."""
 
 from __future__ import annotations
 
@@ -10,10 +10,6 @@ from .ros_parameters import normalize_parameter_dict
 
 
 class PushROSNamespace(Action):
-    pass
-
-
-class PushRosNamespace(PushROSNamespace):
     pass
 
 
@@ -40,23 +36,3 @@ class SetParameter(Action):
         for name, value in self.__params.items():
             t.attribute("name", list(name))
             t.parameter(list(name), value)
-
-
-class SetParametersFromFile(Action):
-    pass
-
-
-class SetRemap(Action):
-    pass
-
-
-class SetUseSimTime(Action):
-    pass
-
-
-class SetROSLogDir(Action):
-    pass
-
-
-class RosTimer(ROSTimer):
-    pass

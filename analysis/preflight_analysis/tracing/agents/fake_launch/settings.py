@@ -1,4 +1,4 @@
-"""Those of `launch.actions` that change launch configurations and the environment."""
+"""Those of `launch.actions` that change launch configurations and do more than keep what they are given."""
 
 from __future__ import annotations
 
@@ -48,46 +48,6 @@ class DeclareLaunchArgument(Action):
         t.attribute("description", self.preflight_doc)
         for choice in self.__choices or ():
             t.child("choice", value=str(choice))
-
-
-class SetLaunchConfiguration(Action):
-    pass
-
-
-class UnsetLaunchConfiguration(Action):
-    pass
-
-
-class SetEnvironmentVariable(Action):
-    pass
-
-
-class UnsetEnvironmentVariable(Action):
-    pass
-
-
-class AppendEnvironmentVariable(Action):
-    pass
-
-
-class PushEnvironment(Action):
-    pass
-
-
-class PopEnvironment(Action):
-    pass
-
-
-class ResetEnvironment(Action):
-    pass
-
-
-class PushLaunchConfigurations(Action):
-    pass
-
-
-class PopLaunchConfigurations(Action):
-    pass
 
 
 class ResetLaunchConfigurations(Action):

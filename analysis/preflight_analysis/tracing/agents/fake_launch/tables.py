@@ -31,7 +31,7 @@ from . import (
     typed,
     worded,
 )
-from .api import CALLS
+from .api import BY_SHORT_NAME, CALLS, Call
 from .base import RECORDER
 
 
@@ -62,9 +62,15 @@ _CLASSES = {
 
 
 def _declared(module: str) -> dict[str, Any]:
-    """The classes that `api` declares of a module of launch."""
-    calls = [call for call in CALLS if call.name == f"{module}.{call.short_name}"]
-    return {call.short_name: _CLASSES[call.short_name, call.kind] for call in calls}
+    """The classes that `api` declares of a module of launch. Those are made here that but keep what they are given."""
+    return {call.short_name: _class(call) for call in CALLS if call.name == f"{module}.{call.short_name}"}
+
+
+def _class(call: Call) -> Any:
+    key = call.short_name, call.kind
+    if key not in _CLASSES:
+        _CLASSES[key] = type(call.short_name, (_class(BY_SHORT_NAME[call.of]),), {"__module__": __name__})
+    return _CLASSES[key]
 
 
 _SOURCES = {**_declared("launch.launch_description_sources"), **_named(includes, "LaunchDescriptionSource")}
