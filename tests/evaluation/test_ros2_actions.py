@@ -235,6 +235,8 @@ def test_each_action_of_python_alone_is_run_in_a_test(kind: str) -> None:
 
 # What a Python launch file gets in place of `launch`
 
+MODULES = ("launch.actions", "launch_ros.actions", "launch.substitutions", "launch_ros.substitutions")
+
 
 @pytest.mark.parametrize("call", [each for each in CALLS if each.name.startswith("launch")], ids=lambda each: each.name)
 def test_a_class_is_made_of_what_is_declared(call: Call) -> None:
@@ -259,11 +261,37 @@ def test_python_says_what_is_wrong_with_a_call() -> None:
         remap("a")
 
 
+@pytest.mark.parametrize(
+    ("name", "args"),
+    [
+        ("SetEnvironmentVariable", ("A", 5)),
+        ("SetLaunchConfiguration", ("a", True)),
+        ("UnsetEnvironmentVariable", (None,)),
+        ("AppendEnvironmentVariable", ("A", "b", 1)),
+        ("SetRemap", ("a", 2.0)),
+        ("SetUseSimTime", (1,)),
+        ("PushROSNamespace", (None,)),
+        ("AndSubstitution", ("a", None)),
+        ("EnvironmentVariable", (None,)),
+        ("FindPackageShare", (1,)),
+    ],
+)
+def test_what_is_kept_has_to_be_a_text(name: str, args: tuple[object, ...]) -> None:
+    made = next(TABLE[module][name] for module in MODULES if name in TABLE[module])
+    with pytest.raises(TypeError, match="Failed to normalize"):
+        made(*args)
+
+
+def test_flags_are_kept_as_they_are() -> None:
+    assert TABLE["launch_ros.actions"]["SetUseSimTime"](True).value is True
+    assert TABLE["launch.actions"]["AppendEnvironmentVariable"]("A", "b", prepend=True).prepend is True
+    assert TABLE["launch.substitutions"]["EnvironmentVariable"]("A").default_value is None
+
+
 def test_each_fake_action_is_declared() -> None:
-    modules = ("launch.actions", "launch_ros.actions", "launch.substitutions", "launch_ros.substitutions")
     fakes = {
         f"{module}.{name}"
-        for module in modules
+        for module in MODULES
         for name, thing in TABLE[module].items()
         if isinstance(thing, type) and issubclass(thing, (FakeAction, FakeSubstitution))
     }

@@ -166,6 +166,8 @@ class Made:
     preflight_call = api.Call("")
     preflight_given: dict[str, Any] = {}
     """What was kept, by the parameters."""
+    preflight_flags: tuple[str, ...] = ()
+    """Parameters that take a truth value as it is, beside a text."""
 
     if TYPE_CHECKING:
 
@@ -180,7 +182,10 @@ class Made:
                 _declare(cls, call)
 
     def preflight_keep(self, given: dict[str, Any]) -> None:
-        self.preflight_given = {**self.preflight_given, **{name: _kept(value) for name, value in given.items()}}
+        flags = {name for name in self.preflight_flags if isinstance(given[name], bool)}
+        self.preflight_given = {
+            name: value if name in flags else normalize_to_list_of_substitutions(value) for name, value in given.items()
+        }
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Any:
         self = super().__new__(cls)
@@ -220,11 +225,6 @@ def _declare(cls: Any, call: api.Call) -> None:
 
 def _given(name: str, made: Any) -> Any:
     return made.preflight_given[name]
-
-
-def _kept(value: Any) -> Any:
-    is_plain = value is None or isinstance(value, (bool, int, float))
-    return value if is_plain else normalize_to_list_of_substitutions(value)
 
 
 def ours(cls: type) -> type:

@@ -36,3 +36,7 @@ class SetParameter(Action):
         for name, value in self.__params.items():
             t.attribute("name", list(name))
             t.parameter(list(name), value)
+
+
+class SetUseSimTime(Action):
+    preflight_flags = ("value",)

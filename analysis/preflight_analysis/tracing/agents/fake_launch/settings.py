@@ -50,6 +50,10 @@ class DeclareLaunchArgument(Action):
             t.child("choice", value=str(choice))
 
 
+class AppendEnvironmentVariable(Action):
+    preflight_flags = ("prepend",)
+
+
 class ResetLaunchConfigurations(Action):
     def preflight_take(self, given: Any, left: Any) -> None:
         super().__init__(**left)

@@ -31,8 +31,8 @@ class Worded(Substitution):
     words: tuple[Parts, ...] = ()
 
     def preflight_keep(self, given: dict[str, Any]) -> None:
-        self._words(*(value for value in given.values() if value is not None))
-        self.preflight_given = dict(zip(given, (*self.words, *([None] * len(given)))))
+        self._words(*(value for name, value in given.items() if value is not None or name != "default_value"))
+        self.preflight_given = {**given, **dict(zip(given, self.words))}
 
     def _words(self, *values: Any) -> None:
         self.words = tuple(normalize_to_list_of_substitutions(value) for value in values)
