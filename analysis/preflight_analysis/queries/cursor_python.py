@@ -214,7 +214,9 @@ class _Reader:
     def _tag(self, call: Node) -> Element:
         """A call as the tag that would say the same."""
         attributes = [self._attribute(each.name, value) for each, value in self._given(call)]
-        children = [self._named("param", "name", key) for key in self._keys(arguments(call).get("parameters"))]
+        named = (("param", "parameters"), ("arg", "launch_arguments"))
+        given = arguments(call)
+        children = [self._named(tag, "name", key) for tag, each in named for key in self._keys(given.get(each))]
         return self._element(_kind(call), call, [each for each in attributes if each is not None], children)
 
     def _keys(self, node: Node | None) -> Iterator[Node]:
@@ -274,15 +276,8 @@ class _Reader:
                 remap = self._element("remap", pair, [written_from] if written_from is not None else [], ())
                 return self._answer("remap-to", remap, (self._tag(call),))
             case "launch_arguments", "from":
-                return self._answer("argument", own, (self._include(call),))
+                return self._answer("argument", own, (self._tag(call),))
         return None
-
-    def _include(self, call: Node) -> Element:
-        given = arguments(call)
-        file = given.get("launch_description_source", given.get("0"))
-        attribute = self._attribute("file", file) if file is not None else None
-        passed = [self._named("arg", "name", key) for key in self._keys(given.get("launch_arguments"))]
-        return self._element("include", call, [attribute] if attribute is not None else [], passed)
 
     def _path(self, string: Node, parent: Node) -> PythonPlace | None:
         """One piece of a path: an argument of `join`, an element of a list, the right side of `/` or `+`."""
@@ -317,8 +312,8 @@ class _Reader:
 def _kind(call: Node) -> str:
     """What a call makes; of one that is not known what it seems to, by what it is given."""
     given = arguments(call)
-    seems = "node" if "executable" in given else "composable_node" if "plugin" in given else ""
-    return KINDS.get(called(call)) or seems
+    seems = {"executable": "node", "plugin": "composable_node", "launch_arguments": "include"}
+    return KINDS.get(called(call)) or next((kind for name, kind in seems.items() if name in given), "")
 
 
 def _of_context(call: Node) -> bool:
