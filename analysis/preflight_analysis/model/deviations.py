@@ -9,15 +9,15 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Hashable, Iterator, Sequence
-from typing import Literal, NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.meanings import own_params
 from preflight_analysis.evaluation.tree import Include, LaunchNode, Param
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.parameters import namespace_of
+from preflight_analysis.model.parameters import by_namespace
 
 LEAST = 4
 """Siblings that there have to be: three agree."""
@@ -33,11 +33,11 @@ What = Literal["parameter", "remap", "argument"]
 
 class Sibling(NamedTuple):
     """One of several that are written alike. `name` is what it is called, or what it alone is given; `values` is what
-    it gives to what, as texts."""
+    it gives to what, as texts, and where."""
 
     name: str
     place: Location
-    values: tuple[tuple[What, str, str], ...]
+    values: tuple[tuple[What, str, str, Location], ...]
 
 
 class Deviation(NamedTuple):
@@ -54,129 +54,110 @@ class Deviation(NamedTuple):
     other: str = ""
 
 
-class _Odd(NamedTuple):
-    """The same by the number of the sibling, without places."""
+class _Given(NamedTuple):
+    """A value of a sibling, and the pattern of names by which it is written."""
 
-    at: int
-    what: What
-    name: str
-    value: str | None
-    expected: str
-    other: str
-
-
-_Patterned: TypeAlias = tuple[tuple[What, str, str, str], ...]
-"""What a sibling gives: to what, by which pattern of names, by which of values, and the value itself."""
+    pattern: str
+    text: str
+    place: Location
 
 
 @derived
 def deviating_nodes(context: Context) -> tuple[Deviation, ...]:
     """Those of nodes that have package and executable, or plugin, in common."""
-    tree = context.tree
-    groups: dict[tuple[str, str, str], list[LaunchNode]] = {}
-    for node in tree.nodes:
-        if node.package and not node.unknowns:
-            groups.setdefault((node.package, node.executable, node.plugin or ""), []).append(node)
-    groups = {key: nodes for key, nodes in groups.items() if LEAST <= len(nodes) <= _MOST}
-    if not groups:
-        return ()
-    below = {} if tree.ros.own_parameters else context.grouped(namespace_of, "siblings", tree.all_params)
+    own, tree = context.tree.ros.own_parameters, context.tree
+    below = {} if own else by_namespace(context)
     found: list[Deviation] = []
-    for key, nodes in groups.items():
-        given = [node.params if tree.ros.own_parameters else below.get(node.name, ()) for node in nodes]
-        siblings = [
-            Sibling(node.name, node.location, values)
-            for node, values in zip(nodes, context.each_row(_values_of, (nodes, given)), strict=True)
-        ]
-        for each in _deviations(context, key, siblings):
-            at = next(at for at, node in enumerate(nodes) if node.location == each.place)
-            places = {
-                **{("parameter", name): param.place for name, param in own_params(nodes[at], given[at])},
-                **{("remap", remap.source): remap.target_location for remap in nodes[at].remaps},
-            }
-            found.append(each._replace(place=places.get((each.what, each.name), each.place)))
+    for program, nodes in context.grouped(_program, "", tree.nodes).items():
+        if program is not None and LEAST <= len(nodes) <= _MOST:
+            given = tuple([node.params if own else below.get(node.name, ()) for node in nodes])
+            found += context.one(_of_nodes, program, nodes, given)
     return tuple(found)
 
 
 @derived
 def deviating_includes(context: Context) -> tuple[Deviation, ...]:
     """Those of includes of one file."""
-    groups: dict[str, list[Include]] = {}
-    for include in context.tree.includes:
-        if include.path is not None:
-            groups.setdefault(include.path, []).append(include)
-    return tuple(
-        each
-        for path, includes in groups.items()
-        if LEAST <= len(includes) <= _MOST
-        for each in _deviations(context, path, _of_includes(includes))
-    )
-
-
-def _values_of(node: LaunchNode, given: Sequence[Param]) -> tuple[tuple[What, str, str], ...]:
-    found: list[tuple[What, str, str]] = [
-        ("parameter", name, str(param.value)) for name, param in own_params(node, given)
-    ]
-    found += [("remap", remap.source, remap.target) for remap in node.remaps]
+    found: list[Deviation] = []
+    for path, includes in context.grouped(_path, "", context.tree.includes).items():
+        if path is not None and LEAST <= len(includes) <= _MOST:
+            found += context.one(_of_includes, path, includes)
     return tuple(found)
 
 
-def _of_includes(includes: Sequence[Include]) -> list[Sibling]:
+def _program(node: LaunchNode) -> tuple[str, str, str] | None:
+    return (node.package, node.executable, node.plugin or "") if node.package and not node.unknowns else None
+
+
+def _path(include: Include) -> str | None:
+    return include.path
+
+
+def _of_nodes(nodes: tuple[LaunchNode, ...], given: tuple[Sequence[Param], ...]) -> tuple[Deviation, ...]:
+    siblings = []
+    for node, params in zip(nodes, given, strict=True):
+        values: list[tuple[What, str, str, Location]] = [
+            ("parameter", name, str(param.value), param.place) for name, param in own_params(node, params)
+        ]
+        values += [("remap", remap.source, remap.target, remap.target_location) for remap in node.remaps]
+        siblings.append(Sibling(node.name, node.location, tuple(values)))
+    return _deviations(siblings)
+
+
+def _of_includes(includes: tuple[Include, ...]) -> tuple[Deviation, ...]:
     """They are called by the first argument that is another one for each."""
     given = [{name: value for name, value in each.args.items() if value is not None} for each in includes]
     names = [name for name in given[0] if len({each.get(name, "") for each in given} - {""}) == len(given)]
-    return [
-        Sibling(
-            values[names[0]] if names else "",
-            each.file_location,
-            tuple(("argument", name, value) for name, value in values.items()),
-        )
-        for each, values in zip(includes, given, strict=True)
-    ]
-
-
-def _deviations(context: Context, key: Hashable, siblings: Sequence[Sibling]) -> Iterator[Deviation]:
-    """None of those that one place makes: a loop, or one file that is included several times."""
-    if len({each.place for each in siblings}) < len(siblings):
-        return
-    own = _own_parts([each.name for each in siblings])
-    patterned = context.each_row(_patterned, ([each.values for each in siblings], own))
-    for each in context.one(_odd_ones, key, patterned, tuple(own)):
-        sibling = siblings[each.at]
-        yield Deviation(sibling.name, sibling.place, len(siblings), *each[1:])
-
-
-def _patterned(values: tuple[tuple[What, str, str], ...], own: str) -> _Patterned:
-    """Names of topics have those of nodes in them, names of parameters and arguments have not."""
-    return tuple(
-        (what, _pattern(name, own) if what == "remap" else name, _pattern(text, own), text)
-        for what, name, text in values
+    return _deviations(
+        [
+            Sibling(
+                values[names[0]] if names else "",
+                each.file_location,
+                tuple(("argument", name, value, each.file_location) for name, value in values.items()),
+            )
+            for each, values in zip(includes, given, strict=True)
+        ]
     )
 
 
-def _odd_ones(siblings: tuple[_Patterned, ...], own: tuple[str, ...]) -> tuple[_Odd, ...]:
-    by_name: dict[tuple[What, str], dict[int, tuple[str, str]]] = {}
-    for at, values in enumerate(siblings):
-        for what, name, pattern, text in values:
-            by_name.setdefault((what, name), {})[at] = pattern, text
-    found: dict[int, list[_Odd]] = {}
+def _deviations(siblings: Sequence[Sibling]) -> tuple[Deviation, ...]:
+    """None of those that one place makes: a loop, or one file that is included several times."""
+    if len({each.place for each in siblings}) < len(siblings):
+        return ()
+    own = _own_parts([each.name for each in siblings])
+    by_name: dict[tuple[What, str], dict[int, _Given]] = {}
+    for at, sibling in enumerate(siblings):
+        for what, name, text, place in sibling.values:
+            # Names of topics have those of nodes in them, names of parameters and arguments have not.
+            common = _pattern(name, own[at]) if what == "remap" else name
+            by_name.setdefault((what, common), {})[at] = _Given(_pattern(text, own[at]), text, place)
+    found: dict[int, list[Deviation]] = {}
     for (what, name), given in by_name.items():
-        ((usual, count),) = Counter(pattern for pattern, _ in given.values()).most_common(1)
+        ((usual, count),) = Counter(each.pattern for each in given.values()).most_common(1)
         if count != len(siblings) - 1:
             continue
-        at = next(at for at in range(len(siblings)) if at not in given or given[at][0] != usual)
-        value = given[at][1] if at in given else None
-        other = _named_by(value, usual, own, at) if value is not None else ""
-        odd = _Odd(at, what, name.replace(_OWN, own[at]), value, usual.replace(_OWN, own[at]), other)
-        found.setdefault(at, []).append(odd)
+        at = next(at for at in range(len(siblings)) if at not in given or given[at].pattern != usual)
+        sibling, odd = siblings[at], given.get(at)
+        found.setdefault(at, []).append(
+            Deviation(
+                sibling.name,
+                odd.place if odd is not None else sibling.place,
+                len(siblings),
+                what,
+                name.replace(_OWN, own[at]),
+                odd.text if odd is not None else None,
+                usual.replace(_OWN, own[at]),
+                _named_by(odd.text, usual, own, at) if odd is not None else "",
+            )
+        )
     if len(found) != 1:
         return ()
-    ((at, odd_ones),) = found.items()
-    if len(odd_ones) > _MOST_DEVIATIONS:
+    ((_, deviations),) = found.items()
+    if len(deviations) > _MOST_DEVIATIONS:
         return ()
     # Who has nothing of what the others have may be another kind of node.
-    is_alike = len(by_name) > len(odd_ones)
-    return tuple(each for each in odd_ones if each.other or (each.value is None and is_alike))
+    is_alike = len(by_name) > len(deviations)
+    return tuple(each for each in deviations if each.other or (each.value is None and is_alike))
 
 
 def _own_parts(names: Sequence[str]) -> list[str]:
