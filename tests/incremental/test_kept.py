@@ -150,6 +150,25 @@ def test_groups_are_those_of_all_items(rounds: list[list[int]]) -> None:
         before = found
 
 
+def divisors(item: list[int]) -> tuple[int, ...]:
+    return tuple(number for number in (2, 3, 5) if item[0] % number == 0)
+
+
+@given(st.one_of(ROUNDS, OF_ONE_LENGTH))
+def test_an_index_is_that_of_all_keys(rounds: list[list[int]]) -> None:
+    pool = [[number] for number in range(8)]
+    kept, before = Kept(), dict[int, tuple[list[int], ...]]()
+    for numbers in rounds:
+        kept = Kept(kept)
+        found = kept.indexed(divisors, "", [pool[number] for number in numbers])
+        keys = {key for number in numbers for key in divisors(pool[number])}
+        assert found == {key: tuple(pool[number] for number in numbers if number % key == 0) for key in keys}
+        firsts = [next(at for at, number in enumerate(numbers) if number % key == 0) for key in found]
+        assert firsts == sorted(firsts)
+        assert all(found[key] is before[key] for key in found if found[key] == before.get(key))
+        before = found
+
+
 def test_what_is_patched_gets_what_it_was() -> None:
     asked: list[object] = []
 

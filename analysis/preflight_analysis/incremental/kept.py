@@ -4,6 +4,7 @@ said of that one is made again."""
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from functools import partial
 from itertools import compress, repeat
 from operator import is_, is_not, itemgetter
 from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
@@ -64,12 +65,21 @@ class Kept:
     def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> Mapping[K, tuple[T, ...]]:
         """The items by their `key`, in order, and the groups by their first items. A group of the same
         objects as last time is the same object. Ask once for each key and `tag`."""
-        now, name = _column(items), (key, tag)
+        return self._indexed((key, tag), _column(items), lambda some: zip(map(key, some), strict=True))
+
+    def indexed(
+        self, keys: Callable[[T], tuple[K, ...]], tag: Hashable, items: Iterable[T], /
+    ) -> Mapping[K, tuple[T, ...]]:
+        """As `grouped`, where an item is in the group of each of its `keys`, which has none twice. Groups that begin
+        with the same item are in any order."""
+        return self._indexed((keys, tag), _column(items), partial(map, keys))
+
+    def _indexed(self, name: Hashable, now: Sequence[Any], keys_of: _Keys) -> Mapping[Any, tuple[Any, ...]]:
         before = self._groups_before.get(name)
         if before is None:
-            found = _groups(now, tuple(map(key, now)), {})
+            found = _groups(now, tuple(keys_of(now)), {})
         else:
-            found = _regrouped(before, now, key, self._differences)
+            found = _regrouped(before, now, keys_of, self._differences)
         self._groups_now[name] = found
         return found.groups
 
@@ -175,11 +185,13 @@ class _Groups(NamedTuple):
     """Items with their keys, where the items of each key are, and the groups that they make."""
 
     items: Sequence[Any]
-    keys: tuple[Any, ...]
+    keys: tuple[tuple[Any, ...], ...]
     places: dict[Any, list[int]]
     groups: dict[Any, tuple[Any, ...]]
 
 
+_Keys = Callable[[Iterable[Any]], Iterable[tuple[Any, ...]]]
+"""The keys of each of some items."""
 _Make = Callable[[Sequence[Iterable[Any]]], Iterable[V]]
 
 
@@ -214,15 +226,15 @@ def _taken_over(before: _Round, columns: _Columns, make: _Make[V], differences: 
     return (*results[:start], *found, *results[length - end :])
 
 
-def _regrouped(before: _Groups, now: Sequence[Any], key: Callable[[Any], Any], differences: _Differences) -> _Groups:
+def _regrouped(before: _Groups, now: Sequence[Any], keys_of: _Keys, differences: _Differences) -> _Groups:
     if len(now) == len(before.items):
         changed = _changed(before.items, now, differences)
         if not changed:
             return before
         if _FEW * len(changed) <= len(now):
-            return _patched_groups(before, now, key, changed)
+            return _patched_groups(before, now, keys_of, changed)
     row = _Round((), (before.items,), before.keys)
-    return _groups(now, _taken_over(row, (now,), lambda columns: map(key, *columns), differences), before.groups)
+    return _groups(now, _taken_over(row, (now,), lambda columns: keys_of(*columns), differences), before.groups)
 
 
 _FEW = 8
@@ -230,26 +242,27 @@ _FEW = 8
 _NOWHERE = (-1,)
 
 
-def _groups(items: Sequence[Any], keys: tuple[Any, ...], known: Mapping[Any, tuple[Any, ...]]) -> _Groups:
+def _groups(items: Sequence[Any], keys: tuple[tuple[Any, ...], ...], known: Mapping[Any, tuple[Any, ...]]) -> _Groups:
     places: dict[Any, list[int]] = {}
-    for at, each in enumerate(keys):
-        places.setdefault(each, []).append(at)
+    for at, some in enumerate(keys):
+        for each in some:
+            places.setdefault(each, []).append(at)
     return _Groups(items, keys, places, {each: _group(items, at, known.get(each)) for each, at in places.items()})
 
 
-def _patched_groups(
-    before: _Groups, items: Sequence[Any], key: Callable[[Any], Any], changed: Iterable[int]
-) -> _Groups:
+def _patched_groups(before: _Groups, items: Sequence[Any], keys_of: _Keys, changed: Sequence[int]) -> _Groups:
     """The groups of as many items, of which a few have changed."""
     keys, places, groups = list(before.keys), before.places.copy(), before.groups.copy()
     touched: dict[Any, None] = {}
-    for at in changed:
-        old, new = keys[at], key(items[at])
-        if old != new:
-            keys[at] = new
-            places[old] = [each for each in places[old] if each != at]
-            places[new] = sorted((*places.get(new, ()), at))
-        touched.update(dict.fromkeys((old, new)))
+    for at, new in zip(changed, keys_of([items[at] for at in changed]), strict=True):
+        old, keys[at] = keys[at], new
+        for gone in old:
+            if gone not in new:
+                places[gone] = [each for each in places[gone] if each != at]
+        for came in new:
+            if came not in old:
+                places[came] = sorted((*places.get(came, ()), at))
+        touched.update(dict.fromkeys((*old, *new)))
     in_order = True
     for each in touched:
         if at_places := places[each]:

@@ -124,6 +124,13 @@ class Context(Remembering):
         `tag`."""
         return self.kept.grouped(key, tag, items)
 
+    def indexed(
+        self, keys: Callable[[T], tuple[K, ...]], tag: Hashable, items: Iterable[T], /
+    ) -> Mapping[K, tuple[T, ...]]:
+        """As `grouped`, where an item is in the group of each of its `keys`, which has none twice. Groups that begin
+        with the same item are in any order."""
+        return self.kept.indexed(keys, tag, items)
+
     def one(self, function: Callable[P, V], key: Hashable, /, *arguments: P.args, **none: P.kwargs) -> V:
         """As `each`, for the one item that `key` names."""
         return self.kept.get(function, key, *arguments, **none)

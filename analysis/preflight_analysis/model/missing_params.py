@@ -49,7 +49,7 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
         return {}
     leaves = {names.leaf(name) for name in params}
     unset = [read for read in unset if not describes_robot(read.name) or names.leaf(read.name) in leaves]
-    known = namespaces_around(context) | {command.param for command in graph.tree.commands}
+    known = {*namespaces_around(context)} | {command.param for command in graph.tree.commands}
     known |= {name for found in context.each(_found_elsewhere, graph.reads_of_nodes) for name in found}
     with_default = {key for keys in context.each(_defaulted, graph.reads_of_nodes) for key in keys}
     first: dict[tuple[int, str], ParamRead] = {}

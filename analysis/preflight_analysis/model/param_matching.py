@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from itertools import chain
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.parameters import by_namespace, namespaces_around
+from preflight_analysis.model.parameters import around_each, by_namespace, namespace_of, namespaces_around
 from preflight_analysis.tracing.interface import Interface
 
 _ASKING = ("get", "has")
@@ -27,10 +27,10 @@ NOBODY = ""
 class Asked:
     """What one node asks for."""
 
-    names: tuple[str, ...]
+    names: frozenset[str]
     """Of parameters, those among them that it sets or deletes."""
-    around: tuple[str, ...]
-    """The namespaces that these are in."""
+    taken: Mapping[str, frozenset[str]]
+    """These and the namespaces that they are in, by the namespaces of all of them."""
     requested: Mapping[str, ParamRead]
     """The first read of each that its own code asks for, by the name that it gives."""
     made: frozenset[str]
@@ -51,8 +51,12 @@ class Held(NamedTuple):
 class Matched:
     """What a launch sets, and what its nodes ask for."""
 
-    unset_of_nodes: tuple[tuple[ParamRead, ...], ...]
-    """The reads in which each node is the first to request a name that nothing sets, nor anything below it."""
+    asked: tuple[Asked, ...]
+    """Of each node."""
+    asking: Mapping[str, tuple[Asked, ...]]
+    """Those that ask for something in a namespace, or below it."""
+    made: AbstractSet[str]
+    """What nodes set or delete."""
     opaque: AbstractSet[str]
     """Full names of the nodes of which it is not known what they read."""
     sought: tuple[ParamRead, ...]
@@ -72,30 +76,70 @@ def matched(context: Context) -> Matched | None:
     if graph is None or not any(known):
         return None
     asked = context.each(_asked_by, graph.reads_of_nodes)
-    names_asked = dict.fromkeys(chain.from_iterable([each.names for each in asked]))
-    if "/" in names_asked:
+    asking = context.indexed(_spaces, "", asked)
+    if any("/" in each.names for each in asking.get("", ())):
         return None
     nodes = context.each(_name, graph.tree.nodes)
     opaque = {name for name, each, is_known in zip(nodes, asked, known, strict=True) if each.lists or not is_known}
     searches = [read for each in asked for read in each.searches]
     searched = frozenset([read.use.name.strip("~/").partition("/")[0] for read in searches])
     made = {name for each in asked for name in each.made}
-    around = chain.from_iterable([each.around for each in asked])
-    asked_in = context.grouped(_namespace, "asked", tuple(dict.fromkeys((*names_asked, *around))))
     groups = by_namespace(context)
-    columns = groups.values(), [asked_in.get(space, ()) for space in groups]
-    unread = zip(groups, context.each_row(_unread, columns, searched), strict=True)
-    holders = _Holders({*nodes}, names_asked)
-    found = ((holders.of(space), params) for space, params in unread if params)
-    held = [Held(holder, params) for holder, params in found if holder is not None]
+    columns = tuple(groups.values()), [asking.get(space, ()) for space in groups]
+    unread = context.each_row(_unread, columns, searched)
+    # Who asks for a namespace as a whole asks for all that is in it.
+    whole = namespaces_around(context).keys() & set[str]().union(*[each.names for each in asked])
+    homes = {*nodes}
+    held = [
+        Held(next((space for space in around if space in homes), NOBODY), params)
+        for around, params in zip(around_each(context), unread, strict=True)
+        if params and whole.isdisjoint(around)
+    ]
     return Matched(
-        tuple(_unset(context, asked, made)),
+        asked,
+        asking,
+        made,
         opaque,
         _sought(context, searches, made),
         any(each.lists for each in asked),
         tuple(each for each in held if each.holder != NOBODY and each.holder not in opaque),
         tuple(chain.from_iterable(each.unread for each in held if each.holder == NOBODY)),
     )
+
+
+def unset_of(context: Context, found: Matched, at: int) -> tuple[ParamRead, ...]:
+    """The reads in which a node, by its number, is the first to request a name that nothing sets, nor anything below
+    it."""
+    mine = found.asked[at]
+    unset = _unset(context, found, mine.requested)
+    rows = ((name, found.asking[_namespace(name)]) for name in unset)
+    return tuple(
+        mine.requested[name]
+        for name, asking in rows
+        if asking[0] is mine or next(each for each in asking if name in each.requested) is mine
+    )
+
+
+def unset_among(context: Context, found: Matched, leaves: frozenset[str], spaces: frozenset[str]) -> list[ParamRead]:
+    """The same of all nodes of which it is known what they read, as far as their last parts or their namespaces are
+    among these."""
+    first: dict[str, tuple[LaunchNode, ParamRead]] = {}
+    for node, reads in zip(context.tree.nodes, context.each(_among, found.asked, leaves, spaces), strict=True):
+        for name, read in reads:
+            first.setdefault(name, (node, read))
+    unset = [first[name] for name in _unset(context, found, first)]
+    return [read for node, read in unset if node.name not in found.opaque]
+
+
+def _among(asked: Asked, leaves: frozenset[str], spaces: frozenset[str]) -> tuple[tuple[str, ParamRead], ...]:
+    pairs = ((name.rpartition("/"), name, read) for name, read in asked.requested.items())
+    return tuple((name, read) for (space, _, leaf), name, read in pairs if leaf in leaves or space in spaces)
+
+
+def _unset(context: Context, found: Matched, some: Iterable[str]) -> list[str]:
+    """Those of the names that nothing sets, nor anything below them."""
+    params, around = context.tree.params, namespaces_around(context)
+    return [name for name in some if name not in params and name not in around and name not in found.made]
 
 
 def reports_params(interface: Interface) -> bool:
@@ -116,10 +160,13 @@ def _asked_by(reads: tuple[ParamRead, ...]) -> Asked:
         if not read.use.builtin:
             requested.setdefault(read.name.rstrip("/") or "/", read)
     made = frozenset(read.name for read in others if read.use.access not in _LOOKING)
-    all_names = (*(read.name.rstrip("/") or "/" for read in asking), *made)
+    all_names = made.union(read.name.rstrip("/") or "/" for read in asking)
+    taken: dict[str, list[str]] = {}
+    for name in names.with_namespaces(all_names):
+        taken.setdefault(_namespace(name), []).append(name)
     return Asked(
         all_names,
-        tuple(names.with_namespaces(all_names).difference(all_names)),
+        {space: frozenset(some) for space, some in taken.items()},
         requested,
         made,
         tuple(read for read in others if read.use.access == "search"),
@@ -135,41 +182,18 @@ def _namespace(name: str) -> str:
     return name.rpartition("/")[0]
 
 
-def _unread(params: tuple[Param, ...], asked: tuple[str, ...], searched: frozenset[str]) -> tuple[Param, ...]:
+def _spaces(asked: Asked) -> tuple[str, ...]:
+    return tuple(asked.taken)
+
+
+def _unread(params: tuple[Param, ...], asking: tuple[Asked, ...], searched: frozenset[str]) -> tuple[Param, ...]:
     """The parameters of one namespace that nobody asks for, nor for anything below them, nor searches for a name in
     them."""
-    taken = frozenset(asked)
+    space = namespace_of(params[0])
+    taken = frozenset[str]().union(*[each.taken[space] for each in asking])
     return tuple(
         [p for p in params if p.name not in taken and (not searched or searched.isdisjoint(p.name.split("/")))]
     )
-
-
-class _Holders:
-    """Of namespaces the full name of the node whose the parameters in them are, `NOBODY`; None where somebody asks for
-    them as a whole."""
-
-    def __init__(self, nodes: AbstractSet[str], asked: Mapping[str, None]) -> None:
-        self._nodes = nodes
-        self._asked = asked
-        self._found: dict[str, str | None] = {"": NOBODY}
-
-    def of(self, space: str) -> str | None:
-        """That of one; thousands have few around them."""
-        if space in self._found:
-            return self._found[space]
-        above = self.of(_namespace(space))
-        holder = None if above is None or space in self._asked else space if space in self._nodes else above
-        self._found[space] = holder
-        return holder
-
-
-def _unset(context: Context, asked: Sequence[Asked], made: AbstractSet[str]) -> Iterator[tuple[ParamRead, ...]]:
-    requested = chain.from_iterable([each.requested for each in asked])
-    left = {*requested}.difference(context.tree.params, namespaces_around(context), made)
-    for each in asked:
-        new = [] if left.isdisjoint(each.requested) else [name for name in each.requested if name in left]
-        left.difference_update(new)
-        yield tuple([each.requested[name] for name in new])
 
 
 def _sought(context: Context, searches: Sequence[ParamRead], made: AbstractSet[str]) -> tuple[ParamRead, ...]:

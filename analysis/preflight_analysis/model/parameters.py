@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import compress
 from operator import is_not
 
-from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.incremental.derived import derived
@@ -24,27 +23,30 @@ OF_ALL_NODES = {
 
 
 @derived
-def namespaces(context: Context) -> frozenset[str]:
-    """Those in which parameters are."""
-    return frozenset(each_namespace(context))
-
-
-@derived
-def namespaces_around(context: Context) -> frozenset[str]:
-    """Those in which parameters are, and all that hold these but the root."""
-    return frozenset(names.with_namespaces(namespaces(context)))
-
-
-@derived
 def by_namespace(context: Context) -> Mapping[str, tuple[Param, ...]]:
     """All parameters by their namespace. A group that is as before an edit is the same object."""
     return context.grouped(namespace_of, "", context.tree.all_params)
 
 
 @derived
-def each_namespace(context: Context) -> tuple[str, ...]:
-    """That of each parameter."""
-    return context.each(namespace_of, context.tree.all_params)
+def namespaces_around(context: Context) -> Mapping[str, tuple[tuple[Param, ...], ...]]:
+    """The groups of `by_namespace` that are in or below each namespace but the root."""
+    return context.indexed(_around, "", tuple(by_namespace(context).values()))
+
+
+@derived
+def around_each(context: Context) -> tuple[tuple[str, ...], ...]:
+    """For each group of `by_namespace` its namespace and those that this is in but the root, the innermost first."""
+    return context.each(_around, tuple(by_namespace(context).values()))
+
+
+def _around(params: tuple[Param, ...]) -> tuple[str, ...]:
+    found = []
+    space = namespace_of(params[0])
+    while space:
+        found.append(space)
+        space = space.rpartition("/")[0]
+    return tuple(found)
 
 
 def changed_names(before: Sequence[Param], params: Sequence[Param]) -> set[str]:

@@ -14,7 +14,7 @@ from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import likeness, nearest, share_words
-from preflight_analysis.model.param_matching import matched, sought_leaf
+from preflight_analysis.model.param_matching import matched, sought_leaf, unset_among, unset_of
 from preflight_analysis.model.parameters import by_namespace, grouped, namespace_of
 from preflight_analysis.model.well_known import is_for_tools
 from preflight_analysis.slips import edits
@@ -47,7 +47,7 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     of_holders: list[Unread] = []
     for name, params in found.private:
         at = places[name]
-        of_holders += context.one(_of_holder, params[0].name, params, nodes[at], found.unset_of_nodes[at])
+        of_holders += context.one(_of_holder, params[0].name, params, nodes[at], unset_of(context, found, at))
     of_nobody: tuple[Unread, ...] = ()
     orphans = found.orphans
     if orphans:
@@ -55,10 +55,8 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
         orphans = tuple(param for param in orphans if plugins.isdisjoint(param.name.split("/"))) if plugins else orphans
     if orphans and not found.lists:
         # Of thousands of reads few have anything in common with those.
-        known = (
-            reads for node, reads in zip(nodes, found.unset_of_nodes, strict=True) if node.name not in found.opaque
-        )
-        near = tuple(_unless_far(chain.from_iterable(known), orphans))
+        leaves = frozenset([names.leaf(param.name) for param in orphans])
+        near = tuple(unset_among(context, found, leaves, frozenset(map(namespace_of, orphans))))
         alone = graph.tree.complete and not found.opaque
         of_nobody = context.one(_of_nobody, None, orphans, near, found.sought, alone)
     return (*of_holders, *of_nobody)
@@ -81,15 +79,6 @@ def fits(value: object, read: ParamRead) -> bool:
     if isinstance(value, (int, float)) and isinstance(default, (int, float)):
         return True
     return type(value) is type(default)
-
-
-def _unless_far(reads: Iterable[ParamRead], params: tuple[Param, ...]) -> Iterator[ParamRead]:
-    """Those that have a last part or a namespace in common with a parameter."""
-    leaves, spaces = {names.leaf(param.name) for param in params}, {*map(namespace_of, params)}
-    for read in reads:
-        namespace, _, leaf = read.name.rpartition("/")
-        if leaf in leaves or namespace in spaces:
-            yield read
 
 
 def _of_holder(params: Iterable[Param], holder: LaunchNode, unset: tuple[ParamRead, ...]) -> tuple[Unread, ...]:
