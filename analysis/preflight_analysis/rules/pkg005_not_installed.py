@@ -13,7 +13,7 @@ from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.environment.installed_paths import cmake_build, installed_at, package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
-from preflight_analysis.evaluation.tree import Param, Use
+from preflight_analysis.evaluation.tree import LaunchNode, Param, Use
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
@@ -93,28 +93,43 @@ def _known_part(path: str) -> str:
 def _of_catkin(rule: Rule, context: Context) -> Iterator[Finding]:
     """What a launch of ROS 1 uses of packages that install other files of the kind: it is found in the devel space, and
     missing where the package is installed. Once for each folder, and for each script."""
-    said = set[str]()
-    for use in filter(None, context.each(_of_file, context.tree.uses)):
-        path = os.path.normpath(use.name)
-        package, document = package_around(context.environment, path), context.documents.get(use.location.file)
-        if package is None or document is None or not _installs_some(context, package):
+    environment, said = context.environment, set[str]()
+    uses = [*filter(None, context.each(_use_of_package, context.tree.uses, environment))]
+    scripts = [*filter(None, context.each(_script_of_package, context.tree.nodes, environment))]
+    packages = {id(package): package for _, package, _ in (*uses, *scripts)}
+    some = {key for key, package in packages.items() if _installs_some(context, package)}
+    for use, package, path in uses if some else ():
+        document, folder = context.documents.get(use.location.file), os.path.dirname(path)
+        if id(package) not in some or document is None or folder in said:
             continue
-        written, folder = document.text[slice(*use.location.span)], os.path.dirname(path)
-        if folder in said or f"$(find {package.name})" not in written or installed_at(context.disk, package, path):
+        written = document.text[slice(*use.location.span)]
+        if f"$(find {package.name})" not in written or installed_at(context.disk, package, path):
             continue
         said.add(folder)
         about = Subject("file", path)
         yield rule.claim(_not_in(package, "file", path, "files"), use.location, subject=about, effect="note")
-    for node in context.tree.nodes:
-        path = node.resolved.path or ""
-        package = package_around(context.environment, path)
-        if path in said or package is None or not path.endswith(_SCRIPT) or not _installs_some(context, package):
+    for node, package, path in scripts if some else ():
+        if id(package) not in some or path in said:
             continue
         programs = {program.path for program in cmake_build(context.disk, package).programs.values()}
         if programs and path not in programs and path.startswith(package.share + os.sep):
             said.add(path)
             about = Subject("executable", node.executable)
             yield rule.claim(_not_in(package, "script", path, "scripts"), node.location, subject=about, effect="note")
+
+
+def _use_of_package(use: Use, environment: Environment) -> tuple[Use, Package, str] | None:
+    """With the package that the file is in, and its path."""
+    path = os.path.normpath(use.name) if _of_file(use) is not None else ""
+    package = package_around(environment, path)
+    return (use, package, path) if package is not None else None
+
+
+def _script_of_package(node: LaunchNode, environment: Environment) -> tuple[LaunchNode, Package, str] | None:
+    """Likewise."""
+    path = node.resolved.path or ""
+    package = package_around(environment, path) if path.endswith(_SCRIPT) else None
+    return (node, package, path) if package is not None else None
 
 
 def _installs_some(context: Context, package: Package) -> bool:
