@@ -54,7 +54,7 @@ def _context(topics: dict[str, Channel], nodes: list[Any], before: Kept | None =
         channels=lambda kind: topics if kind == "topics" else {},
         blind=0,
         tree=SimpleNamespace(nodes=nodes),
-        is_of_unknown=lambda kind, name: False,
+        unknown={"topics": frozenset(), "services": frozenset(), "actions": frozenset()},
         domains=Domains(),
     )
     none: Any = None

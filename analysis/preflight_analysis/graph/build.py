@@ -18,7 +18,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import ActionEndpoint, actions_of, moves_actions
 from preflight_analysis.graph.domains import Domain, Domains, domains_of, groups_apart, separation
-from preflight_analysis.graph.model import PROVIDERS, Channel, Connection, Graph, ParamRead
+from preflight_analysis.graph.model import PROVIDERS, Channel, Connection, Graph, ParamRead, Standing
 from preflight_analysis.graph.processes import each_node
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface
@@ -66,6 +66,7 @@ def build_graph(
         processes,
         *_all_channels(kept, made, external_topics, domains),
         tuple(each.reads for each in made),
+        kept.each(Standing.of, merged),
         tuple(external_topics),
         domains,
     )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
+from typing import NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
@@ -82,6 +83,25 @@ class ParamRead:
     use: ParamUse
 
 
+class Standing(NamedTuple):
+    """What is known of a node as a whole."""
+
+    complete: bool
+    """Its interface is known to its end."""
+    likely_complete: bool
+    blind: bool
+    """It ended before it came to its event loop, with nothing known of it from elsewhere."""
+    silent: tuple[ChannelKind, ...]
+    """The kinds of which nothing is known."""
+
+    @classmethod
+    def of(cls, interface: Interface) -> Standing:
+        """That of a node, by what it does."""
+        blind = interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out")
+        silent = tuple(kind for kind in ENDS if not interface.speaks_of(kind))
+        return cls(interface.complete, interface.likely_complete, blind, silent)
+
+
 @dataclass(frozen=True)
 class Graph:
     """`interfaces` has an entry for each node of the tree by its position in `tree.nodes` (names may clash). In ROS 2
@@ -97,6 +117,8 @@ class Graph:
     actions: Mapping[str, Channel]
     reads_of_nodes: tuple[tuple[ParamRead, ...], ...]
     """The parameters that each node asks for, in the order of `interfaces`."""
+    standings: tuple[Standing, ...]
+    """Likewise."""
     external_topics: tuple[str, ...] = ()
     """Patterns of the topics that something outside of the launch offers or wants."""
     domains: Domains = Domains()
@@ -153,35 +175,27 @@ class Graph:
         return any(fnmatch.fnmatchcase(topic, pattern) for pattern in self.external_topics)
 
     @cached_property
-    def incomplete(self) -> int:
-        """How many nodes' interfaces are not known to their end."""
-        return sum(not interface.complete for interface in self.interfaces)
+    def incomplete(self) -> tuple[str, ...]:
+        """The names of the nodes whose interfaces are not known to their end."""
+        pairs = zip(self.tree.nodes, self.standings, strict=True)
+        return tuple(node.name for node, each in pairs if not each.complete)
 
     @cached_property
     def blind(self) -> int:
         """How many nodes ended before they came to their event loop, with nothing known of them from elsewhere: what
         seems to be missing may be theirs."""
-        return sum(
-            each.source == "trace" and each.outcome.status in ("crashed", "timed-out") for each in self.interfaces
-        )
+        return sum(each.blind for each in self.standings)
 
     @cached_property
-    def _unknown(self) -> Mapping[ChannelKind, frozenset[str]]:
+    def unknown(self) -> Mapping[ChannelKind, frozenset[str]]:
         """The full names of the nodes of which nothing is known of a kind."""
-        pairs = [*zip(self.tree.nodes, self.interfaces, strict=True)]
-        return {
-            kind: frozenset(node.name for node, each in pairs if node.kind != "process" and not each.speaks_of(kind))
-            for kind in ENDS
-        }
+        pairs = zip(self.tree.nodes, self.standings, strict=True)
+        silent = [(node.name, each.silent) for node, each in pairs if each.silent and node.kind != "process"]
+        return {kind: frozenset(name for name, kinds in silent if kind in kinds) for kind in ENDS}
 
     def is_of_unknown(self, kind: ChannelKind, name: str) -> bool:
         """Whether a full name is below that of a node of which nothing is known of the kind, and so most likely its."""
-        unknown, above = self._unknown[kind], name.rpartition("/")[0]
-        while above and unknown:
-            if above in unknown:
-                return True
-            above = above.rpartition("/")[0]
-        return False
+        return is_below_one(name, self.unknown[kind])
 
     @cached_property
     def complete(self) -> bool:
@@ -191,9 +205,19 @@ class Graph:
     @cached_property
     def likely_complete(self) -> bool:
         """Whether no node is likely to have ends that are not known: absence is not sure, but to be reckoned with."""
-        return self.tree.complete and all(interface.likely_complete for interface in self.interfaces)
+        return self.tree.complete and all(each.likely_complete for each in self.standings)
 
     def likely_complete_beside(self, node: LaunchNode) -> bool:
         """Likewise of all nodes but one, of which it is known what it does not do."""
-        pairs = zip(self.tree.nodes, self.interfaces, strict=True)
+        pairs = zip(self.tree.nodes, self.standings, strict=True)
         return self.tree.complete and all(each.likely_complete for other, each in pairs if other is not node)
+
+
+def is_below_one(name: str, others: Collection[str]) -> bool:
+    """Whether one of some full names is a namespace around a full name."""
+    above = name.rpartition("/")[0] if others else ""
+    while above:
+        if above in others:
+            return True
+        above = above.rpartition("/")[0]
+    return False

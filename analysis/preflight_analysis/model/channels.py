@@ -46,9 +46,7 @@ def doubts_of_ends(
 
 def not_all_known(graph: Graph) -> str | bool:
     """The first nodes that were not analysed as a whole, for a doubt; whether anything else is not known."""
-    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
-    unknown = [node.name for node, interface in pairs if not interface.complete]
-    return enumerated(unknown[:_SOME]) or not graph.complete
+    return enumerated(graph.incomplete[:_SOME]) or not graph.complete
 
 
 def channels_of(context: Context) -> Mapping[ChannelKind, Collection[Channel]]:

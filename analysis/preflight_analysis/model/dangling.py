@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from itertools import chain, islice
 
-from preflight_analysis.graph.model import Channel, ChannelKind, Connection
+from preflight_analysis.graph.model import Channel, ChannelKind, Connection, is_below_one
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.channels import channels_of, of_all_kinds
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.well_known import IMAGE_TRANSPORTS, may_dangle
+from preflight_analysis.tracing.interface import KIND_OF
 
 GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
 """Types that say nothing of what is carried: that two ends have the same one is no evidence."""
@@ -23,8 +24,8 @@ def dangling_consumers(context: Context, kind: ChannelKind) -> tuple[Connection,
 @derived
 def all_dangling_consumers(context: Context) -> Mapping[ChannelKind, tuple[Connection, ...]]:
     """Those of each kind."""
-    lone = of_all_kinds(context, _lone_consumers, channels_of(context))
-    return {kind: _not_of_unknown(context, kind, chain.from_iterable(lone[kind])) for kind in lone}
+    lone = of_all_kinds(context, _lone_consumers, channels_of(context), _unknown(context))
+    return {kind: tuple(chain.from_iterable(ends)) for kind, ends in lone.items()}
 
 
 @derived
@@ -34,36 +35,38 @@ def dangling_providers(context: Context, kind: ChannelKind) -> tuple[Connection,
     others = read_otherwise(context) if kind == "topics" else frozenset[str]()
     if others and context.graph is not None:
         lone = tuple(() if name in others else each for name, each in zip(context.graph.topics, lone, strict=True))
-    return _not_of_unknown(context, kind, chain.from_iterable(lone))
+    return tuple(chain.from_iterable(lone))
 
 
-def _not_of_unknown(context: Context, kind: ChannelKind, lone: Iterable[Connection]) -> tuple[Connection, ...]:
-    """Without those whose name is below that of a node of which nothing is known: it is at the other end."""
-    graph = context.graph
-    if graph is None:
-        return tuple(lone)
-    return tuple(each for each in lone if not graph.is_of_unknown(kind, each.name))
-
-
-_Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
-"""The ends of each channel of a kind, in the order of the graph."""
+def _unknown(context: Context) -> Mapping[ChannelKind, Collection[str]]:
+    """The nodes of which nothing is known of a kind: they are at the other end of what is below their names."""
+    return context.graph.unknown if context.graph is not None else {}
 
 
 @derived
-def _all_lone_providers(context: Context) -> _Lone:
-    return of_all_kinds(context, _lone_providers, channels_of(context))
+def _all_lone_providers(context: Context) -> Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]:
+    """The ends of each channel of a kind, in the order of the graph."""
+    return of_all_kinds(context, _lone_providers, channels_of(context), _unknown(context))
 
 
-def _lone_consumers(channel: Channel) -> tuple[Connection, ...]:
+def _lone_consumers(channel: Channel, unknown: Mapping[ChannelKind, Collection[str]]) -> tuple[Connection, ...]:
     if channel.providers or channel.external or channel.provided_apart:
         return ()  # that its providers are in another domain is said by itself
-    return tuple(c for c in channel.consumers if c.action is None and not may_dangle(channel.name, c.endpoint))
+    return _dangling(channel, channel.consumers, unknown)
 
 
-def _lone_providers(channel: Channel) -> tuple[Connection, ...]:
+def _lone_providers(channel: Channel, unknown: Mapping[ChannelKind, Collection[str]]) -> tuple[Connection, ...]:
     if channel.consumers or channel.external or channel.consumed_apart:
         return ()
-    return tuple(c for c in channel.providers if c.action is None and not may_dangle(channel.name, c.endpoint))
+    return _dangling(channel, channel.providers, unknown)
+
+
+def _dangling(
+    channel: Channel, ends: Sequence[Connection], unknown: Mapping[ChannelKind, Collection[str]]
+) -> tuple[Connection, ...]:
+    found = tuple(c for c in ends if c.action is None and not may_dangle(channel.name, c.endpoint))
+    is_theirs = found and is_below_one(channel.name, unknown[KIND_OF[found[0].endpoint.role]])
+    return () if is_theirs else found
 
 
 @derived

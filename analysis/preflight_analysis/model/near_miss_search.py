@@ -7,10 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from functools import cached_property, partial
 from itertools import chain
+from operator import is_
 from typing import NamedTuple
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
+from preflight_analysis.graph.model import Channel, ChannelKind, Connection
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.model.alike import Names
@@ -60,11 +61,24 @@ class _Like(NamedTuple):
     words: tuple[str, ...] = ()
 
 
-class _Found(NamedTuple):
-    """What is like each name, among what is offered."""
+class _Judged(NamedTuple):
+    """What came of the channels that are like a consumer: those that may be so by any evidence but for words, and those
+    that have words in common."""
 
-    like: Mapping[_Sought, _Like]
-    among: AbstractSet[_Offer]
+    consumer: Connection
+    close: tuple[Channel, ...]
+    words: tuple[Channel, ...]
+    near: NearMiss | None
+
+
+class _Found(NamedTuple):
+    """What is like each name, among what is offered, what came of that for each consumer, by its id, and what is to be
+    told."""
+
+    like: Mapping[_Sought, _Like] = {}
+    among: AbstractSet[_Offer] = frozenset()
+    judged: Mapping[int, _Judged] = {}
+    near: tuple[NearMiss, ...] = ()
 
 
 @derived
@@ -89,28 +103,46 @@ def _all_near_misses(context: Context) -> Mapping[ChannelKind, tuple[NearMiss, .
     offers, sought = of_all_kinds(context, _offers, channels), of_all_kinds(context, _sought, consumers)
     found: dict[ChannelKind, tuple[NearMiss, ...]] = {}
     for kind in channels:
-        offered = _Offered(offers[kind])
-        like = context.whole(_found, kind, tuple(dict.fromkeys(sought[kind])), offered.all).like
-        ends = ((end, each, like[each]) for end, each in zip(consumers[kind], sought[kind], strict=True))
-        found[kind] = tuple(_judged(context, graph, offered, ends))
+        near = context.whole(_found, kind, consumers[kind], sought[kind], offers[kind], graph.blind > 0).near
+        if graph.domains.by_node:
+            near = tuple(each for each in near if not graph.domains.apart(each.consumer.node, each.provider.node))
+        found[kind] = near
     return found
 
 
-def _judged(
-    context: Context, graph: Graph, offered: _Offered, consumers: Iterable[tuple[Connection, _Sought, _Like]]
-) -> Iterator[NearMiss]:
-    for consumer, sought, like in consumers:
-        close = [offered.by_name[name] for name in sorted(like.close)] if like.close else []
-        if sought.type is not None:
-            close += offered.before_remaps(sought)[:1]
-        if not close and not like.words:
+def _found(
+    before: Before[_Found] | None,
+    consumers: tuple[Connection, ...],
+    sought: tuple[_Sought, ...],
+    offers: tuple[_Offers, ...],
+    blind: bool,
+) -> _Found:
+    was = before[1] if before is not None else _Found()
+    offered = _Offered(offers)
+    among = frozenset(offered.all)
+    like = _like(was, dict.fromkeys(sought), among)
+    judged: dict[int, _Judged] = {}
+    found: list[NearMiss] = []
+    for consumer, each in zip(consumers, sought, strict=True):
+        alike = like[each]
+        close = [offered.by_name[name] for name in sorted(alike.close)] if alike.close else []
+        if each.type is not None:
+            close += offered.before_remaps(each)[:1]
+        if not close and not alike.words:
             continue
-        words = tuple([offered.by_name[name] for name in like.words])
-        near = context.one(_meant, id(consumer), consumer, tuple(close), words)
-        if near is None or (graph.blind and not near.strong) or offered.is_ambiguous(near, sought):
-            continue
-        if not graph.domains.by_node or graph.domains.apart(consumer.node, near.provider.node) is None:
-            yield near
+        words = tuple([offered.by_name[name] for name in alike.words])
+        known = was.judged.get(id(consumer))
+        if known is None or not _are((known.consumer, *known.close, *known.words), (consumer, *close, *words)):
+            known = _Judged(consumer, tuple(close), words, _meant(consumer, tuple(close), words))
+        judged[id(consumer)] = known
+        near = known.near
+        if near is not None and (near.strong or not blind) and not offered.is_ambiguous(near, each):
+            found.append(near)
+    return _Found(like, among, judged, tuple(found))
+
+
+def _are(some: Sequence[object], others: Sequence[object]) -> bool:
+    return len(some) == len(others) and all(map(is_, some, others))
 
 
 def _meant(consumer: Connection, close: tuple[Channel, ...], words: tuple[Channel, ...]) -> NearMiss | None:
@@ -153,11 +185,9 @@ def _lone_ends(channel: Channel) -> Iterator[tuple[str, str, str]]:
             yield from ((side, end.endpoint.type or "", leaf) for end in ends)
 
 
-def _found(before: Before[_Found] | None, sought: tuple[_Sought, ...], offers: tuple[_Offer, ...]) -> _Found:
+def _like(was: _Found, sought: Iterable[_Sought], among: AbstractSet[_Offer]) -> Mapping[_Sought, _Like]:
     """What is like each name. Not asked by name, as each depends on all names that are offered: what is like one is
     what it was without those that went, and with those that came."""
-    among = frozenset(offers)
-    was = before[1] if before is not None else _Found({}, frozenset())
     came, gone = among - was.among, {each.channel for each in was.among - among}
     known = was.like if len(came) <= _FEW else {}
     pools, new = _Pools(among), _Pools(came)
@@ -169,7 +199,7 @@ def _found(before: Before[_Found] | None, sought: tuple[_Sought, ...], offers: t
         elif came and (more := new.like(each)) != _NOTHING:
             like = _Like(like.close | more.close, _nearest_first(each.name, {*like.words, *more.words}))
         found[each] = like
-    return _Found(found, among)
+    return found
 
 
 _FEW = 16

@@ -47,7 +47,7 @@ class Seen(NamedTuple):
 
 def seen(context: Context, graph: Graph) -> Seen:
     """That of a launch: the same object as before an edit that leaves it alone, as findings are kept by it."""
-    count, unknown = len(graph.tree.nodes), graph.incomplete
+    count, unknown = len(graph.tree.nodes), len(graph.incomplete)
     aside = f"; {unknown} of {count} nodes not fully analysed" if unknown else ""
     return context.one(Seen, "", not_all_known(graph), aside, graph.likely_complete, graph.blind > 0)
 

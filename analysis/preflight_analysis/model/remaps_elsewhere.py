@@ -80,10 +80,13 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     return {**by_launches, **by_source, **_beside(context, lone, publishers)}
 
 
-def _beside(context: Context, lone: Sequence[Connection], publishers: Sequence[Connection]) -> Mapping[int, Elsewhere]:
+def _beside(
+    context: Context, lone: Sequence[Connection], publishers: tuple[Connection, ...]
+) -> Mapping[int, Elsewhere]:
     """Likewise by what the same node is given beside."""
-    topics = context.graph.topics if context.graph is not None else {}
-    slips = {found: Elsewhere(name, 0, beside=name) for found, name in slips_beside(publishers, topics).items()}
+    topics = tuple(context.graph.topics.values()) if context.graph is not None else ()
+    beside = context.one(slips_beside, "", publishers, topics) if publishers else {}
+    slips = {found: Elsewhere(name, 0, beside=name) for found, name in beside.items()}
     slashes = zip(lone, context.each(without_slash, lone), strict=True)
     lacking = {id(each): Elsewhere(found[0], 0, beside=found[1]) for each, found in slashes if found is not None}
     return {**slips, **lacking}

@@ -32,7 +32,7 @@ def without_slash(connection: Connection) -> tuple[str, str] | None:
     return None
 
 
-def slips_beside(dangling: Iterable[Connection], channels: Mapping[str, Channel]) -> Mapping[int, str]:
+def slips_beside(dangling: Iterable[Connection], channels: Iterable[Channel]) -> Mapping[int, str]:
     """For publishers without a subscriber, by id, the name that their remap or parameter was most likely to give: the
     node publishes the same type under that name, too, and it is a slip away and has a subscriber."""
     placed = [each for each in dangling if each.is_placed and each.endpoint.type not in (None, "*")]
@@ -40,7 +40,7 @@ def slips_beside(dangling: Iterable[Connection], channels: Mapping[str, Channel]
         return {}
     nodes = {id(each.node) for each in placed}
     heard: dict[int, list[Connection]] = {}
-    for channel in channels.values():
+    for channel in channels:
         for provider in channel.providers if channel.consumers else ():
             if id(provider.node) in nodes:
                 heard.setdefault(id(provider.node), []).append(provider)

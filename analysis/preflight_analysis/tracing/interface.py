@@ -30,7 +30,7 @@ CHANGE_STATE = "lifecycle_msgs/srv/ChangeState"
 """The type of the service `~/change_state` of a lifecycle node, by which others configure and activate it."""
 ENDS: tuple[KindOfEnds, ...] = ("topics", "services", "actions")
 KINDS: tuple[Kind, ...] = (*ENDS, "parameters")
-_KIND_OF: Mapping[Role, KindOfEnds] = {
+KIND_OF: Mapping[Role, KindOfEnds] = {
     "publisher": "topics",
     "subscriber": "topics",
     "service": "services",
@@ -404,7 +404,7 @@ class Interface:
             return self.known
         if kind == "parameters":
             return any(not use.builtin for use in self.params)
-        return any(_KIND_OF[end.role] == kind for end in self.endpoints if not end.builtin)
+        return any(KIND_OF[end.role] == kind for end in self.endpoints if not end.builtin)
 
     @property
     def decided(self) -> bool:
