@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from preflight_analysis.frames.edges import is_state_publisher, prefix_of
@@ -62,16 +63,23 @@ def mentioned_slips(context: Context) -> Iterator[tuple[Mention, str]]:
     """The frames of sensors in the parameters of nodes of which nothing is known, that are a slip of a link or of its
     like, each with that. Who broadcasts the frame itself may call it so."""
     frames = frames_of(context)
-    counts = Counter(mention.frame for mention in frames.mentions)
-    for mention in frames.mentions:
-        name = mention.parameter.rpartition(".")[2]
-        names = frames.names(mention.space)
+    links: dict[str, set[str]] = {}
+    for edge in frames.edges:
+        if edge.how == "urdf":
+            links.setdefault(edge.space, set()).add(edge.child)
+    if not links:
+        return
+    counts = Counter([mention.frame for mention in frames.mentions])
+    for mention, near in zip(frames.mentions, context.each(_meant_link, frames.mentions, links), strict=True):
         # What two nodes name is no slip of the keyboard.
-        if name not in OF_SENSOR or mention.frame in names or counts[mention.frame] > 1:
-            continue
-        links = {edge.child for edge in frames.edges if edge.how == "urdf" and edge.space == mention.space}
-        if (near := nearest_slip(mention.frame, links)) is not None:
+        if near is not None and counts[mention.frame] == 1 and mention.frame not in frames.names(mention.space):
             yield mention, near
+
+
+def _meant_link(mention: Mention, links: Mapping[str, AbstractSet[str]]) -> str | None:
+    """The link that the frame of a sensor is a slip of."""
+    is_of_sensor = mention.parameter.rpartition(".")[2] in OF_SENSOR
+    return nearest_slip(mention.frame, links.get(mention.space, ())) if is_of_sensor else None
 
 
 def _prefixes(context: Context) -> frozenset[str]:

@@ -143,8 +143,13 @@ def _those_of(tree: LaunchTree, wanted: str) -> Iterator[tuple[Param, tuple[Laun
                 if param.name == wanted:
                     yield param, (node,)
         return
-    ending = f"/{wanted}"
-    for name, param in tree.params.items():
-        if name.endswith(ending):
+    for name in _names_of_descriptions(tree):
+        if names.leaf(name) == wanted:
             space = names.parent(name)
-            yield param, tuple(node for node in tree.nodes if node.name.startswith(space))
+            yield tree.params[name], tuple(node for node in tree.nodes if node.name.startswith(space))
+
+
+@derived
+def _names_of_descriptions(tree: LaunchTree) -> tuple[str, ...]:
+    """The names of parameters that begin as that of a description: few of thousands."""
+    return tuple([name for name in tree.params if DESCRIPTION in name])
