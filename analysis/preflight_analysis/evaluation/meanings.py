@@ -246,7 +246,7 @@ def params_of_nodes(tree: LaunchTree, known: Sequence[Known | None], kept: Kept)
     if tree.ros.own_parameters:
         nodes = tree.nodes_and_simulated
         return [(*node.params, *files[node.name]) if node.name in files else node.params for node in nodes]
-    direct = kept.grouped(_namespace, "named", tree.all_params)
+    direct = params_by_namespace(tree, kept)
     found: list[Sequence[Param]] = [direct.get(node.name, ()) for node in tree.nodes]
     params = sorted(tree.all_params, key=_BY_NAME) if any(known) else []
     for at in compress(range(len(found)), known):
@@ -257,7 +257,13 @@ def params_of_nodes(tree: LaunchTree, known: Sequence[Known | None], kept: Kept)
     return found
 
 
-def _namespace(param: Param) -> str:
+def params_by_namespace(tree: LaunchTree, kept: Kept) -> Mapping[str, tuple[Param, ...]]:
+    """The parameters of ROS 1 by the namespaces that they are in. A group that is as it was is the same object."""
+    return kept.grouped(namespace_of, "", tree.all_params)
+
+
+def namespace_of(param: Param) -> str:
+    """`/a/b` of `/a/b/c`, the empty text of `/c`."""
     return param.name.rpartition("/")[0]
 
 

@@ -3,6 +3,7 @@ said of that one is made again."""
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import compress, repeat
@@ -64,7 +65,7 @@ class Kept:
 
     def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> Mapping[K, tuple[T, ...]]:
         """The items by their `key`, in order, and the groups by their first items. A group of the same
-        objects as last time is the same object. Ask once for each key and `tag`."""
+        objects as last time is the same object. Ask once for each key and `tag`, or again for the same tuple."""
         return self._indexed((key, tag), _column(items), lambda some: zip(map(key, some), strict=True))
 
     def indexed(
@@ -75,6 +76,9 @@ class Kept:
         return self._indexed((keys, tag), _column(items), partial(map, keys))
 
     def _indexed(self, name: Hashable, now: Sequence[Any], keys_of: _Keys) -> Mapping[Any, tuple[Any, ...]]:
+        known = self._groups_now.get(name)
+        if known is not None and known.items is now:
+            return known.groups
         before = self._groups_before.get(name)
         if before is None:
             found = _groups(now, tuple(keys_of(now)), {})
@@ -263,16 +267,27 @@ def _patched_groups(before: _Groups, items: Sequence[Any], keys_of: _Keys, chang
             if came not in old:
                 places[came] = sorted((*places.get(came, ()), at))
         touched.update(dict.fromkeys((*old, *new)))
-    in_order = True
+    moved: dict[Any, tuple[Any, ...]] = {}
     for each in touched:
         if at_places := places[each]:
-            in_order = in_order and before.places.get(each, _NOWHERE)[0] == at_places[0]
-            groups[each] = _group(items, at_places, groups.get(each))
+            group = _group(items, at_places, groups.get(each))
+            if before.places.get(each, _NOWHERE)[0] == at_places[0]:
+                groups[each] = group
+            else:
+                moved[each] = group
         else:
             del places[each]
             groups.pop(each, None)
-    if not in_order:
-        groups = {each: groups[each] for each in sorted(groups, key=lambda each: places[each][0])}
+    if moved:
+        groups.update(moved)
+        # Sorted as a whole they would take longer than all else.
+        rest = [each for each in groups if each not in moved]
+        firsts = [places[each][0] for each in rest]
+        for each in moved:
+            at = bisect(firsts, places[each][0])
+            firsts.insert(at, places[each][0])
+            rest.insert(at, each)
+        groups = {each: groups[each] for each in rest}
     return _Groups(items, tuple(keys), places, groups)
 
 

@@ -21,6 +21,7 @@ from preflight_analysis.environment.installed_paths import (
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tree import LaunchNode, Use
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 
 _IN_PYTHON = ("get_package_share_directory", "get_package_share_path", "FindPackageShare")
@@ -119,6 +120,7 @@ def is_by_share(context: Context, location: Location) -> bool:
     return "find-pkg-share" in document.text[location.span.start : location.span.end]
 
 
+@derived
 def packages_of(context: Context) -> tuple[Package, ...]:
     """The packages of the workspace that a launch has to do with."""
     return packages_in(context.environment, context.launch_files, context.tree.nodes)

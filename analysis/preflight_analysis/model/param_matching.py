@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import namespace_of
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.parameters import around_each, by_namespace, namespace_of, namespaces_around
+from preflight_analysis.model.parameters import around_each, by_namespace, groups_of_params, namespaces_around
 from preflight_analysis.tracing.interface import Interface
 
 _ASKING = ("get", "has")
@@ -85,7 +86,7 @@ def matched(context: Context) -> Matched | None:
     searched = frozenset([read.use.name.strip("~/").partition("/")[0] for read in searches])
     made = {name for each in asked for name in each.made}
     groups = by_namespace(context)
-    columns = tuple(groups.values()), [asking.get(space, ()) for space in groups]
+    columns = groups_of_params(context), [asking.get(space, ()) for space in groups]
     unread = context.each_row(_unread, columns, searched)
     # Who asks for a namespace as a whole asks for all that is in it.
     whole = namespaces_around(context).keys() & set[str]().union(*[each.names for each in asked])

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import compress
 from operator import is_not
 
+from preflight_analysis.evaluation.meanings import namespace_of, params_by_namespace
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.incremental.derived import derived
@@ -25,19 +26,25 @@ OF_ALL_NODES = {
 @derived
 def by_namespace(context: Context) -> Mapping[str, tuple[Param, ...]]:
     """All parameters by their namespace. A group that is as before an edit is the same object."""
-    return context.grouped(namespace_of, "", context.tree.all_params)
+    return params_by_namespace(context.tree, context.kept)
+
+
+@derived
+def groups_of_params(context: Context) -> tuple[tuple[Param, ...], ...]:
+    """Those of `by_namespace`."""
+    return tuple(by_namespace(context).values())
 
 
 @derived
 def namespaces_around(context: Context) -> Mapping[str, tuple[tuple[Param, ...], ...]]:
     """The groups of `by_namespace` that are in or below each namespace but the root."""
-    return context.indexed(_around, "", tuple(by_namespace(context).values()))
+    return context.indexed(_around, "", groups_of_params(context))
 
 
 @derived
 def around_each(context: Context) -> tuple[tuple[str, ...], ...]:
     """For each group of `by_namespace` its namespace and those that this is in but the root, the innermost first."""
-    return context.each(_around, tuple(by_namespace(context).values()))
+    return context.each(_around, groups_of_params(context))
 
 
 def _around(params: tuple[Param, ...]) -> tuple[str, ...]:
@@ -52,8 +59,8 @@ def _around(params: tuple[Param, ...]) -> tuple[str, ...]:
 def changed_names(before: Sequence[Param], params: Sequence[Param]) -> set[str]:
     """The names of the parameters that are other objects than before, or that came or went."""
     if len(before) == len(params):
-        pairs = compress(zip(before, params, strict=True), map(is_not, before, params))
-        return {param.name for pair in pairs for param in pair}
+        changed = [*map(is_not, before, params)]
+        return {param.name for param in (*compress(before, changed), *compress(params, changed))}
     old, new = {id(param): param for param in before}, {id(param): param for param in params}
     return {param.name for param in (*(old[at] for at in old.keys() - new), *(new[at] for at in new.keys() - old))}
 
@@ -64,11 +71,6 @@ def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:
     for param in params:
         groups.setdefault(namespace_of(param), []).append(param)
     return groups
-
-
-def namespace_of(param: Param) -> str:
-    """`/a/b` of `/a/b/c`, the empty text of `/c`."""
-    return param.name.rpartition("/")[0]
 
 
 def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:

@@ -9,13 +9,14 @@ from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import namespace_of
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import likeness, nearest, share_words
 from preflight_analysis.model.param_matching import matched, sought_leaf, unset_among, unset_of
-from preflight_analysis.model.parameters import by_namespace, grouped, namespace_of
+from preflight_analysis.model.parameters import grouped, groups_of_params
 from preflight_analysis.model.well_known import is_for_tools
 from preflight_analysis.slips import edits
 
@@ -51,7 +52,7 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     of_nobody: tuple[Unread, ...] = ()
     orphans = found.orphans
     if orphans:
-        plugins: frozenset[str] = frozenset().union(*context.each(_plugins_in, by_namespace(context).values()))
+        plugins: frozenset[str] = frozenset().union(*context.each(_plugins_in, groups_of_params(context)))
         orphans = tuple(param for param in orphans if plugins.isdisjoint(param.name.split("/"))) if plugins else orphans
     if orphans and not found.lists:
         # Of thousands of reads few have anything in common with those.

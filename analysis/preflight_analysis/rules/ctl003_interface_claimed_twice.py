@@ -6,6 +6,7 @@ https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.ht
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import compress
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import items_of
@@ -15,7 +16,7 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.controllers import Claim, Controller, controllers_of, place_of
-from preflight_analysis.model.parameters import by_namespace
+from preflight_analysis.model.parameters import by_namespace, groups_of_params
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.rule import Rule
 
@@ -30,9 +31,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield from _of_both_sides(rule, context, each.name, {param.name: param for param in each.params})
         return
     groups = by_namespace(context)
-    for controller, own in zip(groups, context.each(_sides, groups.values()), strict=True):
-        if own:
-            yield from _of_both_sides(rule, context, controller, own)
+    sides = context.each(_sides, groups_of_params(context))
+    for controller, own in zip(compress(groups, sides), filter(None, sides), strict=True):
+        yield from _of_both_sides(rule, context, controller, own)
 
 
 def _sides(params: tuple[Param, ...]) -> Mapping[str, Param]:

@@ -45,8 +45,9 @@ def _of_costmaps(rule: Rule, context: Context) -> Iterator[Finding]:
     """ROS 1: costmaps of other nodes than move_base."""
     nodes = {node.name for node in context.tree.nodes if node.package != _REFUSE_ROS1[0]}
     asked = _ask_tf2(context)
-    costmaps = ((above, group) for above, group in by_namespace(context).items() if "costmap" in names.leaf(above))
-    for above, param in ((above, param) for above, group in costmaps if asked is not False for param in group):
+    groups = by_namespace(context) if asked is not False else {}
+    costmaps = [space for space in groups if "costmap" in space and "costmap" in names.leaf(space)]
+    for above, param in ((space, param) for space in costmaps for param in groups[space]):
         written = param.value
         if names.leaf(param.name) not in _OF_COSTMAPS or not isinstance(written, str) or not written.startswith("/"):
             continue

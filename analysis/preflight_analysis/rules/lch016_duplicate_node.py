@@ -50,9 +50,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _unrun(rule: Rule, context: Context, taken: set[str]) -> Iterator[Finding]:
     """Nodes that a Python launch file starts whatever happens, where it was not run."""
-    made = {node.location: node for node in context.tree.nodes}
-    for path, launch_file in context.launch_files.items():
-        for twice in always_twice(launch_file) if launch_file.is_python and launch_file.partial else ():
+    not_run = [path for path, each in context.launch_files.items() if each.is_python and each.partial]
+    made = {node.location: node for node in context.tree.nodes} if not_run else {}
+    for path in not_run:
+        for twice in always_twice(context.launch_files[path]):
             first, second = (made.get(context.location(path, span)) for span in (twice.first, twice.second))
             if first is None or second is None:
                 continue

@@ -7,6 +7,7 @@ import io
 import math
 import tokenize
 from collections.abc import Iterator
+from itertools import chain
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.python import PythonWriter
@@ -18,7 +19,7 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.parameters import by_namespace
+from preflight_analysis.model.parameters import groups_of_params
 from preflight_analysis.model.problems import fix, include_chain, quoted, shortened
 from preflight_analysis.rules.further_reading import FORMATS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.rule import Rule
@@ -45,15 +46,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _in_parameters(rule: Rule, context: Context) -> Iterator[Finding]:
     """Lists of numbers, or of `true` and `false`, with one text that is made of several such. ROS 2 refuses them."""
-    for found in context.each(_lists_with_text, by_namespace(context).values()):
-        yield from (
-            rule.claim(
-                f"{quoted(words)} are one text in '{param.name}': the comma between them is missing",
-                param.place,
-                subject=Subject("parameter", param.name),
-                related=include_chain(param.origin),
-            )
-            for param, words in found
+    for param, words in chain.from_iterable(context.each(_lists_with_text, groups_of_params(context))):
+        yield rule.claim(
+            f"{quoted(words)} are one text in '{param.name}': the comma between them is missing",
+            param.place,
+            subject=Subject("parameter", param.name),
+            related=include_chain(param.origin),
         )
 
 

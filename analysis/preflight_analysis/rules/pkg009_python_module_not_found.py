@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 
 from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
@@ -16,11 +18,12 @@ from preflight_analysis.rules.rule import Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     said: set[str] = set()
-    first_of = {node.resolved.path: node for node in reversed(context.tree.nodes)}
-    for path in dict.fromkeys(node.resolved.path for node in context.tree.nodes):
-        if path is None or package_around(context.environment, path) is None:
-            continue
-        node = first_of[path]
+    first_of: dict[str, LaunchNode] = {}
+    nodes = context.tree.nodes
+    for node, path in zip(nodes, context.each(_in_package, nodes, context.environment), strict=True):
+        if path is not None:
+            first_of.setdefault(path, node)
+    for path, node in first_of.items():
         for found in imports_of(context.disk.db, context.environment, path):
             if found.name in said:
                 continue
@@ -37,6 +40,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 candidates=(found.near,),
                 related=(Related("imported here", found.location), *include_chain(node.origin)),
             )
+
+
+def _in_package(node: LaunchNode, environment: Environment) -> str | None:
+    """The path of its program, if that is in a package."""
+    path = node.resolved.path
+    return path if path is not None and package_around(environment, path) is not None else None
 
 
 RULE = Rule(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
@@ -15,7 +16,7 @@ from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.missing_params import missing_params
 from preflight_analysis.model.nearest import nearest_typo
-from preflight_analysis.model.parameters import by_namespace, renamed
+from preflight_analysis.model.parameters import by_namespace, groups_of_params, renamed
 from preflight_analysis.model.params_in_sources import is_asked_beside
 from preflight_analysis.model.places import known_by_source, related_node, related_param_read
 from preflight_analysis.model.problems import include_chain
@@ -104,12 +105,8 @@ def _as_on_the_command_line(
     rule: Rule, context: Context, graph: Graph, explained: Collection[str]
 ) -> Iterator[Finding]:
     """Parameters of a node whose names begin as private ones do among its arguments, be the node known or not."""
-    odd = [
-        param
-        for found in context.each(_with_underscore, by_namespace(context).values())
-        for param in found
-        if param.name not in explained
-    ]
+    begun = chain.from_iterable(context.each(_with_underscore, groups_of_params(context)))
+    odd = [param for param in begun if param.name not in explained]
     if not odd:
         return
     nodes, read = {node.name for node in graph.tree.nodes}, graph.read_names

@@ -135,7 +135,7 @@ def _is_beside(near: str, path: str) -> bool:
 def _in_params(context: Context) -> Iterator[_Named]:
     params = context.tree.all_params
     texts_of_each = context.each(_texts_of_param, params)
-    found = compress(zip(params, texts_of_each, strict=True), texts_of_each)
+    found = zip(compress(params, texts_of_each), filter(None, texts_of_each), strict=True)
     of_nodes = context.each(_texts_of_params, context.tree.nodes)
     for param, texts in chain(found, chain.from_iterable(of_nodes)):
         command = isinstance(param.value, CommandValue)

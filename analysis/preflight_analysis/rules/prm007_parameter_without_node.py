@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import namespace_of
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
@@ -15,7 +16,6 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import nearest, numbers_in
-from preflight_analysis.model.parameters import namespace_of
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.model.well_known import is_for_tools

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import namespace_of
 from preflight_analysis.evaluation.problems import (
     BadYaml,
     ParameterFileNotFound,
@@ -23,7 +24,7 @@ from preflight_analysis.model.context import Context
 from preflight_analysis.model.missing_params import missing_params
 from preflight_analysis.model.name_index import around
 from preflight_analysis.model.nearest import likeness, nearest
-from preflight_analysis.model.parameters import grouped, namespace_of, renamed
+from preflight_analysis.model.parameters import grouped, renamed
 from preflight_analysis.model.places import related_param_read
 from preflight_analysis.model.problems import include_chain, problems_of, quoted
 from preflight_analysis.model.unread_params import unread_params

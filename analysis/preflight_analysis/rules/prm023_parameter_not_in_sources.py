@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterator, Mapping
-from itertools import chain
+from collections.abc import Collection, Iterable, Iterator
 
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import namespace_of
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.param_matching import reports_params
-from preflight_analysis.model.parameters import by_namespace, renamed
+from preflight_analysis.model.parameters import around_each, groups_of_params, namespaces_around, renamed
 from preflight_analysis.model.params_in_sources import Asked, meant_in_one_file, meant_in_sources
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, replacement
@@ -34,16 +34,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     nodes = frozenset([node.name for node in graph.tree.nodes])
-    groups = by_namespace(context) if not context.tree.ros.ament else {}
-    homes = dict(zip(groups, context.each(_home, tuple(groups), nodes), strict=True))
     reported: set[object] = set()
     packages = context.each(_of_workspace, graph.tree.nodes, context.environment)
     others = context.each(_others_speak, graph.interfaces, context.tree.ros.ament)
     for node, interface, package, is_said in zip(graph.tree.nodes, graph.interfaces, packages, others, strict=True):
         if package is None or is_said:
             continue
-        below = (groups[space] for space in groups if homes[space] == node.name)
-        params = node.params if context.tree.ros.ament else (*chain.from_iterable(below),)
+        params = node.params if context.tree.ros.ament else _params_of(context, node.name, nodes)
         taken = {use.name.strip("~/") for use in interface.params}
         given = {_below(node, param) for param in params}
         found: dict[str, list[tuple[Param, Asked]]] = {}
@@ -59,18 +56,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             reported.add(param.place)
             yield _finding(rule, context, node, param, asked)
     if not context.tree.ros.ament:
-        loose = {space: group for space, group in groups.items() if homes[space] is None}
         shares = tuple(sorted({package.share for package in packages if package is not None}))
+        pairs = zip(groups_of_params(context), around_each(context), strict=True) if shares else ()
+        loose = [group for group, around in pairs if nodes.isdisjoint(around)]
         yield from _beside_nodes(rule, context, shares, loose)
 
 
 def _beside_nodes(
-    rule: Rule, context: Context, shares: tuple[str, ...], loose: Mapping[str, Collection[Param]]
+    rule: Rule, context: Context, shares: tuple[str, ...], loose: Iterable[tuple[Param, ...]]
 ) -> Iterator[Finding]:
     """Of files of parameters that are loaded in a namespace, where the nodes of the launch ask for most of them."""
     nodes = {node.name for node in context.tree.nodes}
     read = context.graph.read_names if context.graph is not None else frozenset()
-    for namespace, group in loose.items() if shares else ():
+    for group in loose:
+        namespace = namespace_of(group[0])
         by_file: dict[str, list[Param]] = {}
         for param in group:
             if param.name not in nodes:
@@ -85,11 +84,15 @@ def _beside_nodes(
                     yield _finding(rule, context, None, leaves[leaf], asked)
 
 
-def _home(namespace: str, nodes: frozenset[str]) -> str | None:
-    """ROS 1: the node below whose name a namespace is."""
-    while namespace and namespace not in nodes:
-        namespace = namespace.rpartition("/")[0]
-    return namespace or None
+def _params_of(context: Context, node: str, nodes: Collection[str]) -> tuple[Param, ...]:
+    """ROS 1: what is set below the name of a node, and of no other one within."""
+    found: list[Param] = []
+    for group in namespaces_around(context).get(node, ()):
+        space = namespace_of(group[0])
+        while space not in nodes:
+            space = space.rpartition("/")[0]
+        found += group if space == node else ()
+    return tuple(found)
 
 
 def _of_workspace(node: LaunchNode, environment: Environment) -> Package | None:

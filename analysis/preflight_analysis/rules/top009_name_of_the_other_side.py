@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin
@@ -13,7 +13,7 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import words_in
-from preflight_analysis.model.parameters import by_namespace
+from preflight_analysis.model.parameters import groups_of_params
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
 from preflight_analysis.rules.rule import Rule
@@ -35,11 +35,10 @@ class _Named(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     reported: set[Location] = set()
-    for found in context.each(_copies_of, context.tree.nodes):
-        yield from _findings(rule, found, reported)
+    yield from _findings(rule, chain.from_iterable(context.each(_copies_of, context.tree.nodes)), reported)
     if not context.tree.ros.own_parameters:
-        for found in context.each(_copies_among, by_namespace(context).values()):
-            yield from _findings(rule, found, reported)
+        found = context.each(_copies_among, groups_of_params(context))
+        yield from _findings(rule, chain.from_iterable(found), reported)
 
 
 def _findings(rule: Rule, found: Iterable[tuple[_Named, _Named]], reported: set[Location]) -> Iterator[Finding]:
