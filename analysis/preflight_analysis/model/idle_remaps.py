@@ -85,7 +85,7 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
         return ()
     own_ends = context.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
     of_nodes = context.grouped(_node, "", chain.from_iterable(own_ends))
-    names_of = {node.name: id(node) for node in graph.tree.nodes}
+    names_of = {node.name: id(node) for node in graph.tree.nodes} if any(each.helped for each in idle) else {}
     rows = ((each, [id(each.nodes[0]), *(names_of.get(name, 0) for name in each.helped)]) for each in idle)
     found = (
         _with_meaning(context, graph, each, tuple(chain.from_iterable(of_nodes.get(node, ()) for node in nodes)))

@@ -26,7 +26,7 @@ def meant_in_sources(context: Context, connection: Connection) -> tuple[str, int
     """The name of which that of a consumer is a slip, by what the sources of the workspace make with that type, and how
     many of them do. None where one of them offers the consumer's own."""
     type_ = connection.endpoint.type
-    if connection.remap is not None or type_ is None or type_ == "*" or type_.startswith(GENERIC_PACKAGES):
+    if type_ is None or of_specific_type(connection) is None:
         return None
     own, kind = connection.endpoint.name.strip("~/"), type_.rpartition("/")[2]
     known = _in_workspace(context.disk.db, context.environment)
@@ -47,6 +47,13 @@ def meant_in_sources(context: Context, connection: Connection) -> tuple[str, int
         if each.type == kind and enough:
             files[each.text] += count
     return next(iter(files.items())) if len(files) == 1 else None
+
+
+def of_specific_type(connection: Connection) -> Connection | None:
+    """The end itself, if its source alone names it, and its type says what is carried."""
+    type_ = connection.endpoint.type
+    is_specific = type_ not in (None, "*") and not (type_ or "").startswith(GENERIC_PACKAGES)
+    return connection if connection.remap is None and is_specific else None
 
 
 @query

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from functools import cached_property, partial
 from itertools import chain
-from operator import is_
 from typing import NamedTuple
 
 from preflight_analysis.evaluation import names
@@ -62,21 +61,22 @@ class _Like(NamedTuple):
 
 
 class _Judged(NamedTuple):
-    """What came of the channels that are like a consumer: those that may be so by any evidence but for words, and those
-    that have words in common."""
+    """What came of a consumer: of the channels of the names that are like its own, and of the one that had its name
+    before a remap."""
 
     consumer: Connection
-    close: tuple[Channel, ...]
-    words: tuple[Channel, ...]
+    like: _Like
+    moved: Channel | None
     near: NearMiss | None
 
 
 class _Found(NamedTuple):
-    """What is like each name, among what is offered, what came of that for each consumer, by its id, and what is to be
-    told."""
+    """What is like each name, among what is offered by which channels, what came of that for each consumer, by its id,
+    and what is to be told."""
 
     like: Mapping[_Sought, _Like] = {}
     among: AbstractSet[_Offer] = frozenset()
+    channels: Mapping[str, Channel] = {}
     judged: Mapping[int, _Judged] = {}
     near: tuple[NearMiss, ...] = ()
 
@@ -121,28 +121,27 @@ def _found(
     offered = _Offered(offers)
     among = frozenset(offered.all)
     like = _like(was, dict.fromkeys(sought), among)
+    changed = {name for name, channel in offered.by_name.items() if was.channels.get(name) is not channel}
     judged: dict[int, _Judged] = {}
     found: list[NearMiss] = []
     for consumer, each in zip(consumers, sought, strict=True):
-        alike = like[each]
-        close = [offered.by_name[name] for name in sorted(alike.close)] if alike.close else []
-        if each.type is not None:
-            close += offered.before_remaps(each)[:1]
-        if not close and not alike.words:
+        alike, moved = like[each], offered.before_remaps(each)[:1] if each.type is not None else ()
+        if not (moved or alike.close or alike.words):
             continue
-        words = tuple([offered.by_name[name] for name in alike.words])
-        known = was.judged.get(id(consumer))
-        if known is None or not _are((known.consumer, *known.close, *known.words), (consumer, *close, *words)):
-            known = _Judged(consumer, tuple(close), words, _meant(consumer, tuple(close), words))
+        known, first = was.judged.get(id(consumer)), moved[0] if moved else None
+        if (
+            known is None
+            or (known.consumer is not consumer or known.like is not alike or known.moved is not first)
+            or not (changed.isdisjoint(alike.close) and changed.isdisjoint(alike.words))
+        ):
+            close = (*(offered.by_name[name] for name in sorted(alike.close)), *moved)
+            words = tuple([offered.by_name[name] for name in alike.words])
+            known = _Judged(consumer, alike, first, _meant(consumer, close, words))
         judged[id(consumer)] = known
         near = known.near
         if near is not None and (near.strong or not blind) and not offered.is_ambiguous(near, each):
             found.append(near)
-    return _Found(like, among, judged, tuple(found))
-
-
-def _are(some: Sequence[object], others: Sequence[object]) -> bool:
-    return len(some) == len(others) and all(map(is_, some, others))
+    return _Found(like, among, offered.by_name, judged, tuple(found))
 
 
 def _meant(consumer: Connection, close: tuple[Channel, ...], words: tuple[Channel, ...]) -> NearMiss | None:
@@ -271,8 +270,10 @@ class _Offered:
         )
 
     @cached_property
-    def _lone(self) -> Counter[tuple[str, str, str]]:
-        return Counter(chain.from_iterable([each.lone for each in self._all]))
+    def _several(self) -> AbstractSet[tuple[str, str]]:
+        """Types, and last parts of names, of which several ends have one side alone."""
+        lone = Counter(chain.from_iterable([each.lone for each in self._all]))
+        return {(type_, leaf) for (_, type_, leaf), count in lone.items() if count > 1}
 
     def is_ambiguous(self, near: NearMiss, sought: _Sought) -> bool:
         """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
@@ -285,7 +286,7 @@ class _Offered:
             return len(self.before_remaps(sought)) != 1
         if near.likeness not in ("slash", "level") or not type_.startswith(GENERIC_PACKAGES):
             return False
-        return any(self._lone[side, type_, leaf] > 1 for side in ("providers", "consumers"))
+        return (type_, leaf) in self._several
 
 
 def _names(channel: Channel, end: Connection) -> Iterator[str]:

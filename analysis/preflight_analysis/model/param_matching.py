@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from itertools import chain
+from itertools import chain, repeat
 from typing import NamedTuple
 
 from preflight_analysis.dataclass import dataclass
@@ -77,19 +77,20 @@ def matched(context: Context) -> Matched | None:
     if graph is None or not any(known):
         return None
     asked = context.each(_asked_by, graph.reads_of_nodes)
-    asking = context.indexed(_spaces, "", asked)
-    if any("/" in each.names for each in asking.get("", ())):
+    names_asked = frozenset[str]().union(*[each.names for each in asked])
+    if "/" in names_asked:
         return None
+    asking = context.indexed(_spaces, "", asked)
     nodes = context.each(_name, graph.tree.nodes)
     opaque = {name for name, each, is_known in zip(nodes, asked, known, strict=True) if each.lists or not is_known}
     searches = [read for each in asked for read in each.searches]
     searched = frozenset([read.use.name.strip("~/").partition("/")[0] for read in searches])
     made = {name for each in asked for name in each.made}
     groups = by_namespace(context)
-    columns = groups_of_params(context), [asking.get(space, ()) for space in groups]
+    columns = groups_of_params(context), [*map(asking.get, groups, repeat(()))]
     unread = context.each_row(_unread, columns, searched)
     # Who asks for a namespace as a whole asks for all that is in it.
-    whole = namespaces_around(context).keys() & set[str]().union(*[each.names for each in asked])
+    whole = frozenset(filter(names_asked.__contains__, namespaces_around(context)))
     homes = {*nodes}
     held = [
         Held(next((space for space in around if space in homes), NOBODY), params)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
+from itertools import compress
+from typing import TypeVar
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
@@ -15,9 +17,11 @@ from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import dangling_consumers, dangling_providers
 from preflight_analysis.model.entry import GRAPH_NAME, Entry
 from preflight_analysis.model.name_index import around
-from preflight_analysis.model.names_in_sources import meant_in_sources
+from preflight_analysis.model.names_in_sources import meant_in_sources, of_specific_type
 from preflight_analysis.model.nearest import is_slip_of_words, likeness
 from preflight_analysis.model.siblings import slips_beside, without_slash
+
+V = TypeVar("V")
 
 _ENOUGH = 2
 """Files that have to agree on a name."""
@@ -65,19 +69,25 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     without a remap, what the sources of the workspace offer."""
     consumers = (*dangling_consumers(context, "topics"), *dangling_consumers(context, "services"))
     partial = {path for path, launch_file in context.launch_files.items() if launch_file.partial}
-    read = [each for each in consumers if each.node.location.file not in partial]  # where each remap is known
-    slips = [each for each in read if meant_in_sources(context, each) is not None]
-    slips = [each for each, in_use in zip(slips, in_use_around(context, slips), strict=True) if not in_use]
+    read = filter(None, context.each(of_specific_type, consumers))
+    read = (each for each in read if each.node.location.file not in partial)  # where each remap is known
+    slips = [(each, meant) for each in read if (meant := meant_in_sources(context, each)) is not None]
+    in_use = in_use_around(context, [each for each, _ in slips])
     by_source = {
         id(each): Elsewhere(*meant, in_source=True)
-        for each in slips
-        if (meant := meant_in_sources(context, each)) is not None
+        for (each, meant), is_used in zip(slips, in_use, strict=True)
+        if not is_used
     }
     publishers = dangling_providers(context, "topics")
     lone = [each for each in (*consumers, *publishers) if each.remap is not None]
-    found = zip(lone, context.each(_used, lone, _Targets(around(context, "remap"))), strict=True) if lone else ()
-    by_launches = {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
+    found = context.each(_used, lone, _Targets(around(context, "remap"))) if lone else ()
+    by_launches = {id(end): elsewhere for end, elsewhere in _of_some(lone, found)}
     return {**by_launches, **by_source, **_beside(context, lone, publishers)}
+
+
+def _of_some(ends: Sequence[Connection], found: Sequence[V | None]) -> Iterator[tuple[Connection, V]]:
+    """The few of many ends of which something was found, each with that."""
+    return zip(compress(ends, found), filter(None, found), strict=True)
 
 
 def _beside(
@@ -87,8 +97,8 @@ def _beside(
     topics = tuple(context.graph.topics.values()) if context.graph is not None else ()
     beside = context.one(slips_beside, "", publishers, topics) if publishers else {}
     slips = {found: Elsewhere(name, 0, beside=name) for found, name in beside.items()}
-    slashes = zip(lone, context.each(without_slash, lone), strict=True)
-    lacking = {id(each): Elsewhere(found[0], 0, beside=found[1]) for each, found in slashes if found is not None}
+    slashes = _of_some(lone, context.each(without_slash, lone))
+    lacking = {id(each): Elsewhere(name, 0, beside=other) for each, (name, other) in slashes}
     return {**slips, **lacking}
 
 
