@@ -19,7 +19,7 @@ from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.meanings import place_of, within
+from preflight_analysis.evaluation.meanings import params_by_namespace, place_of, within
 from preflight_analysis.evaluation.ros2.spawners import LOAD_CONTROLLER, asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.incremental.kept import Kept
@@ -178,12 +178,8 @@ def _own_params(tree: LaunchTree, kept: Kept) -> Sequence[Sequence[Param]]:
     """The parameters that each node is given, those of ROS 1 that stand right below its name."""
     if tree.ros.own_parameters:
         return [node.params for node in tree.nodes_and_simulated]
-    below = kept.grouped(_namespace, "", tree.all_params)
+    below = params_by_namespace(tree, kept)
     return [below.get(node.name, ()) for node in tree.nodes]
-
-
-def _namespace(param: Param) -> str:
-    return param.name.rpartition("/")[0]
 
 
 def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued, *, newer: bool) -> Catalogued:

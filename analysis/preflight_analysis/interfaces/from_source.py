@@ -101,8 +101,9 @@ def _launch_params(
     if before is not None:
         (old_params, old_of_nodes), known = before
         if all(map(is_, old_of_nodes, of_nodes)) and list(map(len, before[0])) == [len(params), len(of_nodes)]:
-            changed = [*compress(zip(old_params, params, strict=True), map(is_not, old_params, params))]
-            return known.changed((old.name for old, _ in changed), _plain(new for _, new in changed))
+            changed = [*map(is_not, old_params, params)]
+            gone = (param.name for param in compress(old_params, changed))
+            return known.changed(gone, _plain(compress(params, changed)))
     return LaunchParams({**_plain(params), **dict(chain.from_iterable(each.items() for each in of_nodes))})
 
 

@@ -69,8 +69,8 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     without a remap, what the sources of the workspace offer."""
     consumers = (*dangling_consumers(context, "topics"), *dangling_consumers(context, "services"))
     partial = {path for path, launch_file in context.launch_files.items() if launch_file.partial}
-    read = filter(None, context.each(of_specific_type, consumers))
-    read = (each for each in read if each.node.location.file not in partial)  # where each remap is known
+    specific = filter(None, context.each(of_specific_type, consumers))
+    read = (each for each in specific if each.node.location.file not in partial)  # where each remap is known
     slips = [(each, meant) for each in read if (meant := meant_in_sources(context, each)) is not None]
     in_use = in_use_around(context, [each for each, _ in slips])
     by_source = {

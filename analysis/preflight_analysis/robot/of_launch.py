@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import compress, repeat
+from operator import contains
 from typing import Protocol
 
 from preflight_analysis.dataclass import dataclass
@@ -152,4 +154,4 @@ def _those_of(tree: LaunchTree, wanted: str) -> Iterator[tuple[Param, tuple[Laun
 @derived
 def _names_of_descriptions(tree: LaunchTree) -> tuple[str, ...]:
     """The names of parameters that begin as that of a description: few of thousands."""
-    return tuple([name for name in tree.params if DESCRIPTION in name])
+    return tuple(compress(tree.params, map(contains, tree.params, repeat(DESCRIPTION))))
