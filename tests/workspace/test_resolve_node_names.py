@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.tracing.interface import NOT_RUN
+from preflight_analysis.tracing.interface import NOT_RUN, Interface, MadeNode, Outcome
+from preflight_analysis.workspace.run_results import RunResults, node_keys
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -40,7 +41,8 @@ UNNAMED = '<node pkg="p" exec="t"><param from="$(dirname)/p.yaml"/></node>'
 NAMED = '<node pkg="p" exec="t" name="other"/>'
 
 
-def analysis(folder: Path, source: str, launch: str = UNNAMED, params: str = "pump") -> Analysis:
+def workspace_of(folder: Path, source: str, launch: str = UNNAMED, params: str = "pump") -> tuple[Workspace, str]:
+    """The workspace, and its launch file."""
     is_python = source.startswith("\nimport")
     files = {
         "p.yaml": f"{params}:\n  ros__parameters:\n    rate: 2.0\n",
@@ -58,7 +60,12 @@ def analysis(folder: Path, source: str, launch: str = UNNAMED, params: str = "pu
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     workspace = Workspace(detect_environment(str(folder), {}, root=str(folder / "nothing")), Sources())
-    static = workspace.static(str(folder / "src/p/main.launch.xml"))
+    return workspace, str(folder / "src/p/main.launch.xml")
+
+
+def analysis(folder: Path, source: str, launch: str = UNNAMED, params: str = "pump") -> Analysis:
+    workspace, root = workspace_of(folder, source, launch, params)
+    static = workspace.static(root)
     return workspace.with_interfaces(static, [NOT_RUN] * len(static.tree.nodes), "not run here")
 
 
@@ -111,6 +118,19 @@ def test_one_name(tmp_path: Path, case: str) -> None:
     assert [(p.name, p.value) for p in node.params] == [("rate", 2.0)]
     assert not told(found)
     assert told(analysis(tmp_path, ONE[case], params="pumpe")) == [("PRM011", "info", "possible")] * 2
+
+
+def test_what_is_run_goes_by_the_name_of_the_launch_file(tmp_path: Path) -> None:
+    """Else a run that tells another name asks for a run under that name, which takes its place, and so on for ever."""
+    workspace, root = workspace_of(tmp_path, ONE["its class names it"])
+    before = workspace.static(root)
+    (key,) = node_keys(before.evaluated)
+    ran = Interface("trace", Outcome("spinning"), nodes=(MadeNode("/pump", "pump"),))
+    workspace.set_results(before.launch, RunResults({key: ran}, pending=True))
+    after = workspace.analysed(root)
+    assert [node.name for node in after.tree.nodes] == ["/pump"]
+    assert node_keys(after.evaluated) == [key] == [("/t", 0)]
+    assert workspace.requests(after) == workspace.requests(before)
 
 
 @pytest.mark.parametrize("case", SEVERAL)

@@ -105,6 +105,14 @@ class Analysis:
     """What the rules get to see."""
     severities: tuple[Severities, ...] = ()
     """Those that the settings want."""
+    before_names: LaunchTree | None = None
+    """The tree before nodes got the names that their own code gives them; None where none has another one."""
+
+    @property
+    def evaluated(self) -> LaunchTree:
+        """The tree as the launch files name its nodes. What is run, and what runs tell, goes by these names: those that
+        a run tells would be other ones before and after it."""
+        return self.before_names or self.tree
 
     @property
     def graph(self) -> Graph | None:
@@ -334,13 +342,14 @@ class Workspace:
         self.sources.db.forget(self)
 
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
-        """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
-        if analysis.tree.ros.own_parameters:
-            containers = Containers(analysis.tree, analysis.context.executables)
-            return tuple(self._ros2_request(node, analysis.documents, containers) for node in analysis.tree.nodes)
-        values = analysis.tree.params.values()
-        params = SharedParams({p.name: p.value for p in values if is_whole(p.value)})
-        return tuple(_request(node, params) for node in analysis.tree.nodes)
+        """How to run each node of the evaluated tree; None for one that cannot be run, for what is not known or not
+        there."""
+        tree = analysis.evaluated
+        if tree.ros.own_parameters:
+            containers = Containers(tree, analysis.context.executables)
+            return tuple(self._ros2_request(node, analysis.documents, containers) for node in tree.nodes)
+        params = SharedParams({p.name: p.value for p in tree.params.values() if is_whole(p.value)})
+        return tuple(_request(node, params) for node in tree.nodes)
 
     def _ros2_request(
         self, node: LaunchNode, documents: Mapping[str, Document], containers: Containers
@@ -746,7 +755,8 @@ def _ahead_of_runs(db: Database, workspace: Workspace, analysis: Analysis) -> An
 
 def _under_names(analysis: Analysis, tree: LaunchTree) -> Analysis:
     """The analysis with the tree in which nodes have the names that their own code gives them."""
-    return replace(analysis, tree=tree, context=replace(analysis.context, tree=tree))
+    context = replace(analysis.context, tree=tree)
+    return replace(analysis, tree=tree, before_names=analysis.evaluated, context=context)
 
 
 def _request(node: LaunchNode, params: Mapping[str, object]) -> TraceRequest | None:

@@ -155,11 +155,12 @@ class Runs:
     def again(self, analysis: Analysis, names: Collection[str] | None = None) -> list[str]:
         """Run nodes anew, all or those of these names, whatever is known of them. Returns which are."""
         self._cancelled = False
-        keys = [key for key in node_keys(analysis.tree) if names is None or key[0] in names]
-        self._results.look_again_at(analysis.launch, keys)
-        self._fresh.setdefault(analysis.launch, set()).update(keys)
+        nodes = zip(node_keys(analysis.evaluated), analysis.tree.nodes, strict=True)
+        wanted = {key: node.name for key, node in nodes if names is None or node.name in names}
+        self._results.look_again_at(analysis.launch, wanted)
+        self._fresh.setdefault(analysis.launch, set()).update(wanted)
         self.wake()
-        return [name for name, _ in keys]
+        return list(wanted.values())
 
     def clear(self) -> None:
         """Take back all that runs told."""
@@ -268,7 +269,8 @@ class Runs:
     async def _requests(self, workspace: Workspace, analysis: Analysis, broken: Broken) -> dict[NodeKey, TraceRequest]:
         """What to run; not what is being typed: a tag with a syntax error is not worth a run."""
         requests = await self._session.in_pool(lambda: workspace.requests(analysis))
-        asked = zip(node_keys(analysis.tree), analysis.tree.nodes, requests, strict=True)
+        tree = analysis.evaluated
+        asked = zip(node_keys(tree), tree.nodes, requests, strict=True)
         return {key: r for key, node, r in asked if r is not None and not broken.touches(node.origin)}
 
     async def _run(self, tracer: Tracer, root: Root, requests: Mapping[NodeKey, TraceRequest]) -> None:
