@@ -181,3 +181,151 @@ async def test_nothing_is_left_of_a_root_that_is_gone(harness: Harness) -> None:
         await editor.until(
             lambda: {uri for uri, params in editor.published.items() if params.diagnostics} == {fragment.as_uri()}
         )
+
+
+ALONE = """<launch>
+  <arg name="ns" default="a"/>
+  <node pkg="robot" exec="talker" name="talker" namespace="$(var ns)">
+    <param from="$(dirname)/params.yaml"/>
+  </node>
+</launch>
+"""
+PARAMS = "/**/talker:\n  ros__parameters:\n    rate: 5.0\n"
+
+
+def create_ros2_package(harness: Harness) -> tuple[Path, Path, Path, Path]:
+    """A launch file that needs nobody, its parameter file, and two launch files that include it under other names."""
+    folder = harness.home / "ros2_ws/src/robot"
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(
+        "<package format='3'><name>robot</name><export><build_type>ament_cmake</build_type></export></package>\n"
+    )
+    alone, params = folder / "alone.launch.xml", folder / "params.yaml"
+    alone.write_text(ALONE)
+    params.write_text(PARAMS)
+    others = []
+    for name in ("b", "c"):
+        other = folder / f"{name}.launch.xml"
+        passed = f'<arg name="ns" value="{name}"/>'
+        other.write_text(
+            f'<launch><include file="$(find-pkg-share robot)/alone.launch.xml">{passed}</include></launch>\n'
+        )
+        others.append(other)
+    return alone, params, others[0], others[1]
+
+
+async def titles(editor: Editor, path: Path) -> list[str]:
+    return [lens.command.title for lens in await editor.lenses(path) if lens.command is not None]
+
+
+async def hovered(editor: Editor, path: Path, needle: str) -> str:
+    found = await editor.hover(path, editor.at(path, needle, 1))
+    return str(getattr(found.contents, "value", "")) if found else ""
+
+
+async def roots_of(editor: Editor, path: Path) -> tuple[str, int]:
+    """The name of the root that a file is shown in, and how many there are."""
+    answer = await ask(editor, "rosPreflight/roots", {"uri": path.as_uri()})
+    return answer.shown.uri.rpartition("/")[2] if answer.shown else "", len(answer.roots)
+
+
+async def indexed(editor: Editor, path: Path, roots: int) -> None:
+    await editor.once(lambda: roots_of(editor, path), lambda found: found[1] == roots)
+
+
+async def test_a_file_that_needs_nobody_is_launched_alone(harness: Harness) -> None:
+    alone, _, _, _ = create_ros2_package(harness)
+    async with editing(harness, folder=harness.home / "ros2_ws") as editor:
+        editor.open(alone)
+        await indexed(editor, alone, 3)
+        assert (await titles(editor, alone))[-1] == "launched by this file"
+        text = await hovered(editor, alone, "$(var ns)")
+        assert "argument `ns` = `a`" in text
+        assert "Launched by `src/robot/alone.launch.xml`, one of 3 launches" in text
+        editor.change(alone, ALONE.replace(' default="a"', ""))
+        await editor.once(lambda: titles(editor, alone), lambda found: found[-1] == "launched by b.launch.xml")
+        assert editor.rules(alone) == [] or "ARG003" not in (editor.rules(alone) or [])
+        assert editor.messages[-1] == "ros-preflight: alone.launch.xml is now analysed as launched by b.launch.xml."
+
+
+async def test_of_several_launches_the_one_counts_of_which_most_is_known(harness: Harness) -> None:
+    fragment, fast, _ = create_workspace(harness)
+    fast.write_text(fast.read_text().replace("<launch>", '<launch><arg name="unset"/>'))
+    async with editing(harness) as editor:
+        editor.open(fragment)
+        await indexed(editor, fragment, 2)
+        assert await roots_of(editor, fragment) == ("slow.launch", 2)
+
+
+async def test_a_choice_counts_at_once_for_all_that_the_root_reaches_and_is_remembered(harness: Harness) -> None:
+    alone, params, b, _ = create_ros2_package(harness)
+    folder = harness.home / "ros2_ws"
+    async with editing(harness, folder=folder) as editor:
+        editor.open(alone)
+        await indexed(editor, alone, 3)
+        editor.open(params, language="yaml")
+        assert await titles(editor, params) == ["launched by alone.launch.xml"]
+        text = await editor.once(lambda: hovered(editor, params, "/**/talker"), lambda found: "By launch" in found)
+        assert "`/a/talker` in `src/robot/alone.launch.xml`" in text
+        assert "`/b/talker` in `src/robot/b.launch.xml`" in text
+        assert text.startswith("`/**/talker` is for\n\n- `/a/talker`")
+        assert "- `/b/talker` `robot" not in text
+        select: dict[str, Any] = {"uri": alone.as_uri(), "root": {"uri": b.as_uri(), "args": {}}}
+        assert (await ask(editor, "rosPreflight/selectRoot", select)).message is None
+        text = await hovered(editor, params, "/**/talker")
+        assert text.startswith("`/**/talker` is for\n\n- `/b/talker`")
+        assert await titles(editor, params) == ["launched by b.launch.xml"]
+        assert (await titles(editor, alone))[-1] == "launched by b.launch.xml"
+    async with editing(harness, folder=folder) as editor:
+        editor.open(params, language="yaml")
+        assert await titles(editor, params) == ["launched by b.launch.xml"]
+        editor.open(alone)
+        assert (await titles(editor, alone))[-1] == "launched by b.launch.xml"
+        select = {"uri": alone.as_uri(), "root": None}
+        await ask(editor, "rosPreflight/selectRoot", select)
+        assert (await titles(editor, alone))[-1] == "launched by this file"
+
+
+async def test_what_was_decided_stays_when_another_file_is_opened(harness: Harness) -> None:
+    alone, params, _, _ = create_ros2_package(harness)
+    async with editing(harness, folder=harness.home / "ros2_ws") as editor:
+        editor.open(params, language="yaml")
+        await editor.once(lambda: titles(editor, params), lambda found: found == ["launched by b.launch.xml"])
+        editor.open(alone)
+        await editor.once(lambda: titles(editor, alone), lambda found: found[-1:] == ["launched by this file"])
+        assert await titles(editor, params) == ["launched by b.launch.xml"]
+
+
+async def test_the_user_is_told_when_a_root_is_no_longer_one_of_the_file(harness: Harness) -> None:
+    fragment, fast, _ = create_workspace(harness)
+    async with editing(harness) as editor:
+        editor.open(fragment)
+        await editor.once(lambda: titles(editor, fragment), lambda found: found[-1:] == ["launched by fast.launch"])
+        fast.write_text("<launch/>\n")
+        editor.watched(fast)
+        await editor.until(lambda: editor.messages)
+        assert editor.messages == ["ros-preflight: fragment.launch is now analysed as launched by slow.launch."]
+        assert (await titles(editor, fragment))[-1] == "launched by slow.launch"
+
+
+async def test_any_editor_lets_the_user_choose(harness: Harness) -> None:
+    fragment, _, _ = create_workspace(harness)
+    async with editing(harness) as editor:
+        asked: list[types.ShowMessageRequestParams] = []
+
+        @editor.client.feature(types.WINDOW_SHOW_MESSAGE_REQUEST)
+        def answer(params: types.ShowMessageRequestParams) -> types.MessageActionItem:
+            asked.append(params)
+            return types.MessageActionItem("slow.launch")
+
+        editor.open(fragment)
+        await editor.once(lambda: titles(editor, fragment), lambda found: found[-1:] == ["launched by fast.launch"])
+        lens = (await editor.lenses(fragment))[-1]
+        await editor.execute(lens.command)
+        assert [each.title for each in asked[0].actions or ()] == [
+            "fast.launch",
+            "slow.launch",
+            "fragment.launch",
+            "Default",
+        ]
+        assert (await titles(editor, fragment))[-1] == "launched by slow.launch"

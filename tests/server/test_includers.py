@@ -113,7 +113,7 @@ async def test_lenses_for_a_client_without_our_commands(
     async with editing(harness, settings=settings) as editor:
         editor.open(outer, OUTER.replace("</launch>", "<node "))
         found = await editor.lenses(outer)
-        assert [lens.command.command for lens in found if lens.command] == ["", "", ""]
+        assert [lens.command.command for lens in found if lens.command] == ["", "", "rosPreflight.askForRoot"]
         assert await titles(editor, outer) == ["not included by any file", "3 nodes", "launched by this file"]
 
 

@@ -194,6 +194,11 @@ class Database:
                 self._writers -= 1
                 self._condition.notify_all()
 
+    def interrupt(self) -> None:
+        """Make readers leave, as a write does, and change nothing."""
+        with self.writing():
+            pass
+
     def leave_if_cancelled(self) -> None:
         """For what takes long between two questions: raises `Cancelled` within `reading`, where somebody writes."""
         if self._thread.readings and self._writers:

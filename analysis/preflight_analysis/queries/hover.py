@@ -32,7 +32,7 @@ from preflight_analysis.queries.handed_over import hover_in, is_handed_over
 from preflight_analysis.queries.hover_symbols import argument_notes, symbol_hover
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.language import described
-from preflight_analysis.queries.param_files import in_param_file, is_param_file
+from preflight_analysis.queries.param_files import in_param_file, is_param_file, values_in_param_file
 from preflight_analysis.queries.param_texts import default_text, value_text
 from preflight_analysis.queries.places import (
     action_at,
@@ -113,7 +113,9 @@ def hover(
     if (bridge := bridge_hover(analyses, file, offset)) is not None:
         return bridge
     if analyses and is_param_file(analyses[0], file):
-        return in_param_file(analyses, file, offset)
+        found = in_param_file(analyses, file, offset)
+        contexts = _contexts(analyses, file, offset, unseen) if found is not None else ""
+        return Hover(f"{found.markdown}\n\n{contexts}", found.span) if found is not None and contexts else found
     symbol = symbol_hover(context, offset) if context is not None else None
     found = symbol or next((h for a in analyses if (h := _known(a, file, offset)) is not None), None)
     notes = argument_notes(context, offset) if context is not None and found is not None else ""
@@ -218,6 +220,8 @@ def _root(analysis: Analysis) -> str:
 
 def _values(analysis: Analysis, file: str, offset: int) -> tuple[str, ...]:
     """What the thing at `offset` comes to in one root, once for each context in which its file is included."""
+    if is_param_file(analysis, file):
+        return values_in_param_file(analysis, file, offset)
     uses = uses_at(analysis.tree, file, offset)
     if _is_of_use(analysis, file, offset):
         uses = [u for u in uses if u.location == uses[0].location and u.kind == uses[0].kind]
@@ -228,6 +232,8 @@ def _values(analysis: Analysis, file: str, offset: int) -> tuple[str, ...]:
 
 def _is_of_use(analysis: Analysis, file: str, offset: int) -> bool:
     """Whether the hover speaks of a name in a value, not of what the tag around it makes."""
+    if is_param_file(analysis, file):
+        return True
     use = use_at(analysis.tree, file, offset)
     if use is None or use.kind not in _OF_THE_TAG:
         return use is not None

@@ -1,4 +1,5 @@
-"""What stands above the `<launch>` tag: who includes the file, how many nodes there are, and in whose context."""
+"""What stands above the `<launch>` tag: who includes the file, how many nodes there are, and in whose context. Above a
+file that launches hand over it is the last of these alone."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.queries.handed_over import is_handed_over
+from preflight_analysis.queries.param_files import is_param_file
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.index import Root
 
@@ -24,13 +26,16 @@ class Lenses:
     root: Root
     reason: str = ""
     """Why the file itself is not evaluated; empty where it is."""
+    is_launched: bool = True
+    """Whether it is a launch file."""
 
 
 def lenses(context: QueryContext) -> Lenses | None:
-    """What to show; None in an empty file, and in one that is no launch file."""
-    if is_handed_over(context.analyses, context.path):
-        return None
-    launch_file, analysis = context.launch_file(context.path), context.analyses[0]
+    """What to show; None in an empty file."""
+    analysis = context.analyses[0]
+    if is_handed_over(context.analyses, context.path) or is_param_file(analysis, context.path):
+        return Lenses(Span(0, 0), (), 0, 0, analysis.launch, is_launched=False)
+    launch_file = context.launch_file(context.path)
     if launch_file is None or (launch_file.root is None and not launch_file.document.text.strip()):
         return None
     places = dict.fromkeys(inclusion.place for inclusion in context.current.includers(context.path))

@@ -76,27 +76,40 @@ def _with_plugins(analysis: Analysis, node: LaunchNode, interface: Interface) ->
 
 
 def in_param_file(analyses: Sequence[Analysis], path: str, offset: int) -> Hover | None:
-    """The hover of a key: which nodes get the section; how they declare the parameter, and what they get."""
-    found = _at(analyses[0], path, offset)
+    """The hover of a key: which nodes of the first launch get the section; how they declare the parameter, and what
+    they get."""
+    analysis = analyses[0]
+    found = _at(analysis, path, offset)
     if found is None:
         return None
     use, param, span = found
-    first: dict[str, tuple[Analysis, Reader]] = {}
-    for analysis in analyses:
-        for reader in _for_section(analysis, path, use):
-            first.setdefault(reader.node.name, (analysis, reader))
+    first = {reader.node.name: reader for reader in reversed(_for_section(analysis, path, use))}
+    readers = [first[name] for name in reversed(first)]
     if param is None:
-        lines = [f"- {_node(analysis, reader)}" for analysis, reader in first.values()]
+        lines = [f"- {_node(analysis, reader)}" for reader in readers]
         pattern = code(use.section.pattern)
         title = f"{pattern} is for" if lines else f"{pattern} fits no node that gets this file"
     else:
-        lines = [f"- {_declared(analysis, reader, param, path)}" for analysis, reader in first.values()]
+        lines = [f"- {_declared(analysis, reader, param, path)}" for reader in readers]
         title = f"{code(param.name)} = {value_text(param.value)} ({type_text(param.value) or 'no value'})"
     if not lines:
         lines = list(_why_not(use))
     more = [f"- … and {len(lines) - _SHOWN_NODES} more"] if len(lines) > _SHOWN_NODES else []
     refused = (f"\n{each}" for each in _refusals(analyses, path)[:_SHOWN_REFUSALS])
     return Hover("\n".join([title, "", *lines[:_SHOWN_NODES], *more, *refused]).rstrip(), span)
+
+
+def values_in_param_file(analysis: Analysis, path: str, offset: int) -> tuple[str, ...]:
+    """The nodes of a launch that get the section of a key, or what each of them gets for the parameter."""
+    found = _at(analysis, path, offset)
+    if found is None:
+        return ()
+    use, param, _ = found
+    readers = _for_section(analysis, path, use)
+    if param is None:
+        return tuple(dict.fromkeys(code(reader.node.name) for reader in readers))
+    got = ((reader, next((p for p in reader.node.params if p.name == param.name), param)) for reader in readers)
+    return tuple(dict.fromkeys(f"{code(reader.node.name)}: {value_text(each.value)}" for reader, each in got))
 
 
 def _refusals(analyses: Sequence[Analysis], path: str) -> Sequence[str]:

@@ -46,6 +46,15 @@ class FileFacts:
     observations: tuple[Observation, ...] = field(default=(), compare=False, repr=False)
     """What it was made from."""
 
+    @property
+    def stands_alone(self) -> bool:
+        """Whether it can be launched as it is: each argument that it declares has a value, and it uses no other."""
+        arguments = [m.entry for m in self.mentions if m.entry.kind == "argument"]
+        declared = {each.text for each in arguments if each.role == "declares"}
+        given = {each.name for each in self.args if not each.required}
+        used = {each.text for each in arguments if each.role == "uses"}
+        return declared.issuperset(used) and given.issuperset(each.name for each in self.args)
+
     def named(self, kind: Kind, name: str, role: str = "") -> Iterator[Mention]:
         """The mentions of a name."""
         return (m for m in self.mentions if m.entry[:3] == (kind, name, role))

@@ -75,6 +75,9 @@ class RootEntry:
     inputs: Mapping[str, str]
     inclusions: tuple[Inclusion, ...]
     nodes: tuple[NodeEntry, ...]
+    unknowns: int = 0
+    """How much of it is not known: arguments without a value, names of nodes and files that depend on one, and Python
+    launch files that have to be run."""
     observations: tuple[Observation, ...] = field(default=(), compare=False, repr=False)
     """What it was made from."""
 
@@ -95,11 +98,13 @@ class WorkspaceIndex:
         return WorkspaceIndex(files, entries, self.written + part.written)
 
     def roots_of(self, path: str) -> tuple[Root, ...]:
-        """The roots that reach a file, those that name it or reach it most directly first; itself where none does."""
+        """The roots that reach a file, those of which most is known first, then those that name it or reach it most
+        directly; itself where none does."""
         return self._reaching.get(path) or (Root(path),)
 
     def roots_reading(self, path: str) -> tuple[Root, ...]:
-        """The roots that read a file which is none of their launch files, such as one of parameters."""
+        """The roots that read a file which is none of their launch files, such as one of parameters; those of which
+        most is known first, then the smallest."""
         return self._readers.get(path, ())
 
     def roots_touching(self, path: str) -> tuple[Root, ...]:
@@ -126,19 +131,19 @@ class WorkspaceIndex:
 
     @cached_property
     def _reaching(self) -> dict[str, tuple[Root, ...]]:
-        found: dict[str, list[tuple[int, Root]]] = {}
+        found: dict[str, list[tuple[int, int, Root]]] = {}
         for root, entry in self.entries.items():
             for rank, path in enumerate(entry.files):
-                found.setdefault(path, []).append((rank, root))
-        return {path: tuple(root for _, root in sorted(ranked)) for path, ranked in found.items()}
+                found.setdefault(path, []).append((entry.unknowns, rank, root))
+        return {path: tuple(root for *_, root in sorted(ranked)) for path, ranked in found.items()}
 
     @cached_property
     def _readers(self) -> dict[str, tuple[Root, ...]]:
-        found: dict[str, list[Root]] = {}
+        found: dict[str, list[tuple[int, int, Root]]] = {}
         for root, entry in self.entries.items():
             for path in entry.inputs.keys() - set(entry.files):
-                found.setdefault(path, []).append(root)
-        return {path: tuple(roots) for path, roots in found.items()}
+                found.setdefault(path, []).append((entry.unknowns, len(entry.files), root))
+        return {path: tuple(root for *_, root in sorted(ranked)) for path, ranked in found.items()}
 
     @cached_property
     def _includers(self) -> dict[str, tuple[Inclusion, ...]]:

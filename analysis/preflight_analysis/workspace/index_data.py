@@ -116,6 +116,7 @@ class _Writer:
             [self._paths.number(path) for path in entry.inputs],
             [self._inclusion(each) for each in entry.inclusions],
             [[n.name, n.package, n.executable, *self._location(n.location)] for n in entry.nodes],
+            entry.unknowns,
         ]
 
     def _inclusion(self, inclusion: Inclusion) -> list[Any]:
@@ -203,7 +204,7 @@ class _Reader:
         )
 
     def _root(self, kept: Sequence[Any]) -> RootEntry:
-        path, args, seen, files, inputs, inclusions, nodes = kept
+        path, args, seen, files, inputs, inclusions, nodes, unknowns = kept
         root = Root.of(self._paths[path], {_text(name): _text(value) for name, value in args})
         return RootEntry(
             root,
@@ -211,6 +212,7 @@ class _Reader:
             {name: self._sources.digest(name) for name in map(self._paths.__getitem__, inputs)},
             tuple(self._inclusion(each, root) for each in inclusions),
             tuple(NodeEntry(_text(n), _text(p), _text(e), self._location(*at)) for n, p, e, *at in nodes),
+            int(unknowns),
             self._seen(seen),
         )
 

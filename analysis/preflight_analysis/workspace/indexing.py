@@ -167,7 +167,15 @@ def entry_of(tree: LaunchTree, root: Root) -> RootEntry:
         if i.path is not None
     )
     nodes = tuple(NodeEntry(n.name, n.package, n.executable, n.location) for n in tree.nodes)
-    return RootEntry(root, tree.files, tree.inputs, inclusions, nodes)
+    return RootEntry(root, tree.files, tree.inputs, inclusions, nodes, _unknowns(tree))
+
+
+def _unknowns(tree: LaunchTree) -> int:
+    """How much of a launch is not known, of what an outline has."""
+    lacking = sum(arg.value is None for arg in tree.args.values())
+    not_run = sum(command.launch_file and command.result is None for command in tree.commands)
+    unnamed = sum("$(" in node.name for node in tree.nodes)
+    return lacking + not_run + unnamed + sum(include.path is None for include in tree.includes)
 
 
 class _Maker:

@@ -178,6 +178,15 @@ class Analysis:
         return found
 
     @property
+    def reached(self) -> frozenset[str]:
+        """The files that were read for it."""
+        return frozenset((*self.tree.inputs, *self.documents))
+
+    def reaches(self, path: str) -> bool:
+        """Whether a file is one of them, or of those that only the context knows."""
+        return path in self.tree.inputs or self.document(path) is not None
+
+    @property
     def all_documents(self) -> Mapping[str, Document]:
         """The documents with those that only what is left out reaches."""
         return {**self.context.documents, **self.documents}

@@ -111,7 +111,7 @@ class Analyses:
 
     def of(self, path: str) -> Iterator[Analysis]:
         """Those that reach a file, the one that it is shown in first."""
-        for root in dict.fromkeys((*self._session.choice.of(path), Root(path), *self.all)):
+        for root in dict.fromkeys((*self._session.choice.of(path), *self.all)):
             analysis = self.all.get(root)
             if analysis is not None and analysis.document(path) is not None:
                 yield analysis
@@ -127,15 +127,8 @@ class Analyses:
         return list(dict.fromkeys((*self._shown(), *self._session.choice.others())))
 
     def _shown(self) -> list[Root]:
-        """The roots that open files are shown in. A file that its root does not reach any more is shown by itself."""
-        shown: dict[Root, None] = {}
-        for path, root in self._session.choice.shown():
-            shown[root] = None
-            analysis = self.all.get(root)
-            is_reached = analysis is None or not self.is_current(analysis) or path in analysis.tree.inputs
-            if not is_reached and not self._session.choice.is_handed_over(path):
-                shown[Root(path)] = None
-        return list(shown)
+        """The roots that open files are shown in."""
+        return list(dict.fromkeys(root for _, root in self._session.choice.shown()))
 
     # How a change becomes findings
 
@@ -150,7 +143,7 @@ class Analyses:
             while True:
                 self._news.clear()
                 workspace = await self._session.workspace()
-                self._session.choice.find_readers(workspace)
+                self._session.choice.settle(workspace)
                 shown = self._shown()
                 if not await self._ask(workspace, shown) or shown != self._shown():
                     continue
@@ -228,13 +221,14 @@ class Analyses:
         return not round_.preliminary
 
     def _snapshot(self, asked: Collection[Root], only_news: bool) -> Snapshot:
-        session, selected = self._session, self._session.choice.selected
+        session, choice = self._session, self._session.choice
         return Snapshot(
             asked,
             list(dict.fromkeys((*self._wanted(), *asked))),
             {root: session.runs.results(root) for root in asked},
-            frozenset((*selected.values(), *session.indexing.named)),
-            dict(selected),
+            frozenset((*choice.chosen, *session.indexing.named)),
+            frozenset(self._shown()),
+            choice.chosen,
             self._build_files(),
             self._last,
             only_news,

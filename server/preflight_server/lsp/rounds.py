@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from itertools import groupby
@@ -74,8 +74,11 @@ class Snapshot:
     """Of the nodes of those that are asked for."""
     named: Collection[Root]
     """Roots that count though others include them."""
-    selected: Mapping[str, Root]
-    """The root that the user chose for a file to be shown in."""
+    shown: Collection[Root]
+    """Those that open files are shown in: they count likewise, where they lack no argument."""
+    chosen: Mapping[Root, Collection[str]]
+    """The roots that the user chose, the latest first, and the files that each reached: of these, what is found in it
+    is all that counts."""
     build_files: Collection[str]
     """Those that are open: what is found in them is shown, whatever launches are."""
     before: Round | None
@@ -128,13 +131,11 @@ class Snapshot:
         """The findings of all roots by file, of a file for which the user chose a root those in that one. Files that
         are not open are read for their lines. `changed` has the files that are not what a root was made of."""
         kept = Kept(self.before.kept if self.before is not None else None)
-        count = counting({root: analysis.tree.files for root, analysis in analyses.items()}, self.named)
+        alone = (root for root in self.shown if root in analyses and not _lacks_arguments(analyses[root]))
+        count = counting({root: each.tree.files for root, each in analyses.items()}, {*self.named, *alone})
         shown_roots = {root: analysis for root, analysis in analyses.items() if root in count}
         reports = {root: _report(root, each, changed.get(root, frozenset())) for root, each in shown_roots.items()}
-        findings = merged(reports.values(), kept)
-        for path, root in self.selected.items():
-            if root in reports and path in reports[root].files:
-                findings[path] = merged([reports[root]]).get(path, ())
+        findings = merged(_of_chosen(reports, self.chosen), kept)
         newest_last = sorted(shown_roots, key=lambda root: not changed.get(root))
         documents = {
             path: document for root in newest_last for path, document in shown_roots[root].all_documents.items()
@@ -155,6 +156,31 @@ class Snapshot:
         kept.end()
         outdated = frozenset(root for root, files in changed.items() if files)
         return Round(analyses, outdated, shown, lacks, diagnostics, kept, converter)
+
+
+def _lacks_arguments(analysis: Analysis) -> bool:
+    """Whether a root cannot be launched as it is."""
+    return any(arg.value is None for arg in analysis.tree.args.values())
+
+
+def _of_chosen(reports: Mapping[Root, RootFindings], chosen: Mapping[Root, Collection[str]]) -> Iterable[RootFindings]:
+    """The findings of each root, without those in files for which the user chose another one."""
+    counts: dict[str, Root] = {}
+    for root, reached in chosen.items():
+        if root in reports:
+            counts.update((path, root) for path in reached if path in reports[root].files and path not in counts)
+    if not counts:
+        return reports.values()
+    return [
+        _without(report, {p for p in report.files if counts.get(p, root) != root}) for root, report in reports.items()
+    ]
+
+
+def _without(report: RootFindings, files: Collection[str]) -> RootFindings:
+    if not files:
+        return report
+    found = tuple(each for each in report.findings if each.location.file not in files)
+    return replace(report, files=report.files.difference(files), findings=found)
 
 
 def _file(finding: Finding) -> str:

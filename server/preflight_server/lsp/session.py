@@ -225,17 +225,24 @@ class Session:
         self.analyses.ask_again()
 
     async def select(self, path: str, root: Root | None) -> str | None:
-        """Show a file in the context of this root; None for the one that the index puts first. Returns why not."""
+        """Show a file, and all others that it reaches, in the context of this root; None for the one that counts where
+        nobody chose any. Returns why not."""
         if root is None:
-            self.choice.selected.pop(path, None)
-        else:
+            await self.choice.unchoose(path)
+            return None
+        reached = self.choice.known_to_reach(root, path)
+        if not reached:
             workspace = await self.workspace()
             analysis = await self.in_pool(lambda: workspace.evaluated(root.path, dict(root.args)))
-            if path not in analysis.tree.inputs:
-                return f"{root.label} does not include {path}"
-            self.choice.selected[path] = root
-        self.analyses.ask_again()
+            reached = analysis.reached
+        if path not in reached:
+            return f"{root.label} does not include {path}"
+        await self.choice.choose(root, reached)
         return None
+
+    async def interrupt(self) -> None:
+        """Have what is under way begin again: something else comes first now."""
+        await self.in_pool(self._sources.db.interrupt)
 
     def close(self) -> None:
         """Leave nothing running. Returns when the threads have ended; may be called from any thread, and twice."""
@@ -337,15 +344,17 @@ class Session:
     async def _detect(self) -> None:
         given = folder, package_path, beside, trusted = self._detected_from
 
-        def work() -> Workspace:
+        def work() -> tuple[Workspace, Mapping[Root, frozenset[str]]]:
             environment = detect(folder, package_path, self._variables, beside=beside, outside=trusted)
             similar = SimilarTraces(TraceCache(), environment, self._sources)
-            return Workspace(environment, self._sources, commands=self.runs.commands.results, similar=similar)
+            workspace = Workspace(environment, self._sources, commands=self.runs.commands.results, similar=similar)
+            return workspace, self.choice.load(folder)
 
         try:
-            workspace = await self.in_pool(work)
+            workspace, chosen = await self.in_pool(work)
         finally:
             self._detecting = None
         if given == self._detected_from:
             self._workspace = workspace
+            self.choice.take(folder, chosen)
             self.runs.set_workspace(workspace)

@@ -2,7 +2,8 @@
 is not evaluated where that is so, and which nodes run in the sandbox at the moment.
 
 A lens can be clicked where the client has our commands: those that it names as `clientCommands` in the initialisation
-options. `rosPreflight.showReferences` gets a URI, a position and locations, `rosPreflight.selectRoot` a URI.
+options. `rosPreflight.showReferences` gets a URI, a position and locations, `rosPreflight.selectRoot` a URI; in the
+place of that the server has `rosPreflight.askForRoot` for any client.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from lsprotocol import types
 from preflight_analysis.queries.lenses import Lenses, lenses
 from preflight_analysis.queries.query_context import QueryContext
 
+from preflight_server.lsp.features.roots import ASK_FOR_ROOT
 from preflight_server.lsp.markup import counted
 from preflight_server.lsp.query_contexts import converter_for, query_context
 from preflight_server.lsp.refresher import Refresher
@@ -68,11 +70,13 @@ def register(server: PreflightServer) -> None:
             range_ = view.converter.positions(view.path).range(found.head)
             places = [converter.location(place) for place in found.includers]
             includers, nodes, root = _titles(found, context)
-            shown = [
-                types.CodeLens(range_, command(includers, SHOW_REFERENCES, uri, range_.start, places)),
-                types.CodeLens(range_, command(nodes, "")),
-                types.CodeLens(range_, command(root, SELECT_ROOT, uri)),
-            ]
+            select = SELECT_ROOT if SELECT_ROOT in server.client_commands else ASK_FOR_ROOT
+            shown = [types.CodeLens(range_, types.Command(root, select, arguments=[uri]))]
+            if found.is_launched:
+                shown[:0] = [
+                    types.CodeLens(range_, command(includers, SHOW_REFERENCES, uri, range_.start, places)),
+                    types.CodeLens(range_, command(nodes, "")),
+                ]
             if found.reason:
                 shown.insert(0, types.CodeLens(range_, command(f"not evaluated: {found.reason}", "")))
             if running:

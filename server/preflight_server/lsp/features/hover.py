@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
+from preflight_analysis.findings.markdown import code
 from preflight_analysis.queries.hover import hover as query
+from preflight_analysis.queries.query_context import QueryContext
 
 from preflight_server.lsp.markup import markup
 from preflight_server.lsp.query_contexts import query_context
@@ -19,6 +21,11 @@ def _content(ls: PreflightServer, markdown: str) -> types.MarkupContent:
     return markup(markdown, document.hover.content_format if document and document.hover else None)
 
 
+def _title(context: QueryContext) -> str:
+    root = context.analyses[0].launch
+    return " ".join((context.shown(root.path), *(f"{name}:={value}" for name, value in root.args)))
+
+
 def register(server: PreflightServer) -> None:
     """Register the handler."""
 
@@ -30,6 +37,11 @@ def register(server: PreflightServer) -> None:
         positions = view.converter.positions(view.path)
         offset = positions.offset(params.position)
         context = await query_context(view)
-        unseen = max(0, len(view.session.choice.of(view.path)) - len(view.analyses))
+        roots = len(view.session.choice.of(view.path))
+        unseen = max(0, roots - len(view.analyses))
         found = await view.session.in_pool(lambda: query(context.analyses, view.path, offset, unseen, context))
-        return types.Hover(_content(ls, found.markdown), positions.range(found.span)) if found else None
+        if found is None:
+            return None
+        # Where there are several it is said which one the names are of.
+        of_root = f"\n\nLaunched by {code(_title(context))}, one of {roots} launches" if roots > 1 else ""
+        return types.Hover(_content(ls, found.markdown + of_root), positions.range(found.span))

@@ -27,5 +27,7 @@ def register(server: PreflightServer) -> None:
             return {"watching": False, "message": "not a launch file, or unreadable"}
         if not view.session.runs.trusted:
             return {"watching": False, "message": _NOT_TRUSTED}
-        ls.live.start(view.session, view.analysis)
+        analysis = view.analysis
+        ls.live.start(view.session, analysis)
+        await view.session.choice.choose(analysis.launch, analysis.reached)
         return {"watching": True, "message": None}
