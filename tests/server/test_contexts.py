@@ -329,3 +329,17 @@ async def test_any_editor_lets_the_user_choose(harness: Harness) -> None:
             "Default",
         ]
         assert (await titles(editor, fragment))[-1] == "launched by slow.launch"
+
+
+async def test_what_holds_in_one_launch_of_several_is_not_said_before_the_others_are_known(harness: Harness) -> None:
+    """The listener alone has no publisher; the launch that includes it starts one."""
+    node = '<node pkg="preflight_demo" type="{0}.py" name="{0}"/>'
+    listener = harness.write("listener.launch", f"<launch>{node.format('listener')}</launch>\n")
+    include = '<include file="$(dirname)/listener.launch"/><node pkg="nowhere" type="t" name="n"/>'
+    both = harness.write("both.launch", f"<launch>{node.format('talker')}{include}</launch>\n")
+    async with editing(harness) as editor:
+        editor.open(listener)
+        await editor.having(both, "PKG001")
+        said = [[d.code for d in each.diagnostics] for each in editor.history if each.uri == listener.as_uri()]
+        assert said, "something was published"
+        assert not any("TOP" in str(code) for codes in said for code in codes)

@@ -114,7 +114,9 @@ async def test_symbols_and_roots_are_those_of_all_folders(harness: Harness) -> N
         async def titles() -> list[str]:
             return [lens.command.title for lens in await editor.lenses(included) if lens.command]
 
-        await editor.once(titles, lambda shown: shown[2:3] == ["launched by a.launch"])
+        await editor.once(titles, lambda shown: shown[:1] == ["included by 1 file"])
+        answer = await editor.client.protocol.send_request_async("rosPreflight/roots", {"uri": included.as_uri()})
+        assert [root.uri for root in answer.roots] == [included.as_uri(), second.as_uri()]
         assert await editor.definition(included, editor.at(included, "pear"))
 
 

@@ -228,7 +228,10 @@ async def test_what_is_for_launch_files_alone_says_nothing(harness: Harness, rob
         link = editor.at(arm, '<parent link="base_link"', 15)
         await editor.once(lambda: hovered(editor, arm, link), bool)
         assert await editor.prepare_rename(arm, link) is None
-        assert await editor.symbols(arm) == await editor.lenses(arm) == await editor.folds(arm) == []
+        assert await editor.symbols(arm) == await editor.folds(arm) == []
+        assert [lens.command.title for lens in await editor.lenses(arm) if lens.command] == [
+            "launched by arm/launch/arm.launch"
+        ]
         assert await editor.hierarchy(arm, link) == []
         assert await editor.signature(arm, link) is None
         assert await editor.completion(arm, editor.at(arm, "<xacro:include", 1)) == []

@@ -43,7 +43,9 @@ async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypat
             await asyncio.wait_for(session.analyses.settled(), PATIENCE)
             await asyncio.sleep(0.2)  # nothing tells that it is not tried again
             assert len(tried) <= 2 * version, "once for the edit, and once when the index came"
-        assert await session.view(launch_file.as_uri()) is None
+        view = await session.view(launch_file.as_uri())
+        assert view is not None
+        assert view.analysis.graph is None, "what the text alone says is left"
     finally:
         await asyncio.get_running_loop().run_in_executor(None, session.close)
 
@@ -85,6 +87,36 @@ async def test_of_a_large_launch_what_needs_no_graph_is_there_first(
         )
         assert view is not None
         assert any(finding.rule == "PKG001" for finding in view.findings)
+    finally:
+        may_go_on.set()
+        await asyncio.get_running_loop().run_in_executor(None, session.close)
+
+
+async def test_what_texts_say_does_not_wait_for_the_graph(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    may_go_on = threading.Event()
+    whole = Workspace.with_interfaces
+
+    def waits(self: Workspace, *args: Any) -> Analysis:
+        may_go_on.wait(PATIENCE)
+        return whole(self, *args)
+
+    monkeypatch.setattr(Workspace, "with_interfaces", waits)
+    monkeypatch.setattr(PreflightServer, "client_capabilities", types.ClientCapabilities())
+    server = PreflightServer()
+    session = Session(server, str(tmp_path), Settings(), trusted=False)
+    launch_file = tmp_path / "a.launch"
+    try:
+        text = '<launch><node pkg="nowhere" type="t" name="n"/></launch>'
+        document = server.texts.open(launch_file.as_uri(), "roslaunch", 1, text)
+        session.takes(document)
+        session.text_changed(document, own=True, quiet=0)
+        await asyncio.wait_for(session.analyses.published(), PATIENCE)
+        found = session.analyses.findings[str(launch_file)]
+        assert [finding.rule for finding in found] == ["PKG001"]
+        may_go_on.set()
+        view = await asyncio.wait_for(session.view(launch_file.as_uri()), PATIENCE)
+        assert view is not None
+        assert view.analysis.graph is not None, "who asks waits for it"
     finally:
         may_go_on.set()
         await asyncio.get_running_loop().run_in_executor(None, session.close)

@@ -47,7 +47,7 @@ export function choices(found: Roots, file: string, shownPath: (uri: string) => 
       .join(", "),
     root,
   }));
-  return [...listed, { label: "Default", description: "the first root that reaches the file", root: undefined }];
+  return [...listed, { label: "Default", description: "what counts where you choose none", root: undefined }];
 }
 
 function same(one: Root, other: Root | null): boolean {

@@ -23,7 +23,7 @@ describe("choices", () => {
       [
         ['robot.launch name:=husky note:="two words"', "shown", robot.uri],
         ["inc.launch", "this file", "file:///ws/inc.launch"],
-        ["Default", "the first root that reaches the file", undefined],
+        ["Default", "what counts where you choose none", undefined],
       ],
     );
   });

@@ -120,6 +120,7 @@ RULE = Rule(
     effect="no-effect",
     kind="near",
     sometimes=(Reason.FROM_SOURCE, Reason.NOT_GIVEN),
+    of_sources=True,
     what="Checks for a parameter below the name of a plugin that the plugin does not declare, while one of a similar "
     "name is not set. Plugins of the workspace are read from their source, those of Nav2 are in the catalogue.",
     why="The plugin uses its default, and no tool reports that the value of the file is unused.",

@@ -39,6 +39,7 @@ class Rule(RuleDescription):
     because something else is not. One that needs the graph gets that of nodes which were not run for it, and what it
     says counts where it is grave and of a parameter that only the branch sets.
     `generations`: those of ROS in whose launches it has something to say.
+    `of_sources`: it reads the sources of programs, which takes seconds: it comes after what the texts of a launch say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `of_package`: what it says of one package of the workspace, whatever launch starts its nodes.
     `of_description`: what it says of one file of robot descriptions or worlds, by its path, whatever launch reads it.
@@ -55,6 +56,7 @@ class Rule(RuleDescription):
     of_description: OfDescription | None = field(default=None, repr=False)
     problems: tuple[type[ProblemKind], ...] = ()
     needs_graph: bool = False
+    of_sources: bool = False
     every_root: bool = False
     generations: tuple[int, ...] = (1, 2)
     in_branches: bool = False

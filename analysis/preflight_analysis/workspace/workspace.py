@@ -51,6 +51,7 @@ from preflight_analysis.model.context import Context
 from preflight_analysis.model.installation import build_files_of, packages_in
 from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import (
+    all_rules,
     found_in_branch,
     found_in_file,
     found_in_loose_files,
@@ -105,6 +106,8 @@ class Analysis:
     """What the rules get to see."""
     severities: tuple[Severities, ...] = ()
     """Those that the settings want."""
+    of_texts: bool = False
+    """Whether only those rules are asked that do without graph and sources."""
     before_names: LaunchTree | None = None
     """The tree before nodes got the names that their own code gives them; None where none has another one."""
 
@@ -140,7 +143,8 @@ class Analysis:
     @cached_property
     def _judgement(self) -> tuple[tuple[Finding, ...], tuple[Failure, ...]]:
         failures: list[Failure] = []
-        found = run_rules(self.context, failures=failures)
+        rules = [rule for rule in all_rules() if not rule.of_sources] if self.of_texts else None
+        found = run_rules(self.context, rules, failures)
         self.context.kept.end()
         if self.tree.edited:
             found = [each for each in found if not self._of_replaced_text(each)]
@@ -278,6 +282,10 @@ class Workspace:
         """
         root = self._looked_at(path, args)
         return _static(self.sources.db, self, root.path, root.args)
+
+    def of_texts(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
+        """As `static` without the rules that read the sources of programs: it is there seconds earlier, at first."""
+        return replace(self.evaluated(path, args), of_texts=True)
 
     def analysed(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
         """All that is known of `path` launched with `args`, by what is known of its runs (`set_results`). The disk is

@@ -54,6 +54,8 @@ class Analyses:
         self._news = asyncio.Event()
         """Whether what was asked for may have another answer by now."""
         self._settled = asyncio.Event()
+        self._published = asyncio.Event()
+        """Whether something is published that was found in the texts as they are."""
         self.calm = threading.Event()
         """Whether all that is shown is up to date: what runs in the background waits for that, thread or not."""
         self._mark_settled()
@@ -63,7 +65,9 @@ class Analyses:
     def ask_again(self, edited: str | None = None) -> None:
         """Something changed, by an edit of this file where one is named."""
         self._edited = edited
-        if edited is not None or self._last is None or not self._last.preliminary:
+        if edited is not None or self._last is None:
+            self._published.clear()
+        if edited is not None or self._last is None or not self._last.large:
             self._settled.clear()  # what there is before a graph stays until that is there, unless the text is another
         self.calm.clear()
         self._news.set()
@@ -87,6 +91,10 @@ class Analyses:
     async def settled(self) -> None:
         """Wait until what was typed so far is analysed, in the context in which it is shown."""
         await self._settled.wait()
+
+    async def published(self) -> None:
+        """Wait until something is published that was found in what was typed so far."""
+        await self._published.wait()
 
     # What there is
 
@@ -133,6 +141,7 @@ class Analyses:
     # How a change becomes findings
 
     def _mark_settled(self) -> None:
+        self._published.set()
         self._settled.set()
         self.calm.set()
 
@@ -216,7 +225,8 @@ class Analyses:
             return False  # superseded by a newer text
         if round_ is not self._last:
             self._commit(round_)
-        if round_.preliminary:
+        self._published.set()
+        if round_.large:
             self._settled.set()
         return not round_.preliminary
 
@@ -230,12 +240,20 @@ class Analyses:
             frozenset(self._shown()),
             choice.chosen,
             self._build_files(),
+            self._awaited(),
+            session.indexing.made,
             self._last,
             only_news,
             self._server.texts,
             self._shows_related,
             self._server.shown_pages,
         )
+
+    def _awaited(self) -> dict[Root, frozenset[str]]:
+        """The files of the roots that are still to be analysed."""
+        entries = self._session.indexing.index.entries
+        new = (root for root in self._wanted() if root not in self.all)
+        return {r: frozenset((*entries[r].files, *entries[r].inputs)) for r in new if r in entries}
 
     def _build_files(self) -> list[str]:
         """The open ones of this folder."""

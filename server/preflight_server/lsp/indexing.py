@@ -40,6 +40,8 @@ class Indexing:
         self._server = server
         self._session = session
         self.index = WorkspaceIndex()
+        self.made = False
+        """Whether it was made once, as far as that succeeded."""
         self._project = ProjectSettings()
         self._changed: set[str] = set()
         self._everything = False
@@ -92,8 +94,11 @@ class Indexing:
             if self._cancel.is_set():
                 break
             index = await self._make(workspace, changed)
+            if index is None and not self._cancel.is_set() and not self.made:
+                self.made = True
+                self._session.analyses.ask_again()
             if index is not None:
-                self.index = index
+                self.index, self.made = index, True
                 self._to_keep = (workspace, index) if changed is not None else None
                 self._session.analyses.ask_again()
 

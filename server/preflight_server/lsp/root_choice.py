@@ -2,8 +2,8 @@
 
 The root that was chosen or watched last counts for every file that it reaches. Else the roots count that the settings
 name. Then a launch file that needs nobody, as all of its arguments have values, is launched alone. Any other file is
-shown in the launch in which an open one is shown that reaches it, or in the one of which most is known. What was decided
-so once stays, as long as that launch reaches the file.
+shown in the launch in which an open one is shown that reaches it, or in the one of which most is known. What was
+decided so once stays, as long as that launch reaches the file.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ from preflight_server.lsp.text_store import TextStore
 _log = logging.getLogger(__name__)
 
 LARGE = 100
-"""From so many nodes on, what can be said of a launch without the graph is shown first."""
+"""With so many nodes nobody waits for the graph who asks for something in a launch that is new."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,9 @@ class Round:
     failures: tuple[Failure, ...] = ()
     """The errors of ours that cost findings."""
     preliminary: bool = False
-    """Whether the graph of one that was asked for is still missing."""
+    """Whether of one that was asked for there is only what its texts say."""
+    large: bool = False
+    """Whether that one is large."""
 
 
 def branches_of(workspace: Workspace, root: Root, stops: Callable[[], bool]) -> Branches | None:
@@ -81,6 +83,11 @@ class Snapshot:
     is all that counts."""
     build_files: Collection[str]
     """Those that are open: what is found in them is shown, whatever launches are."""
+    awaited: Mapping[Root, frozenset[str]]
+    """Those of the wanted roots of which nothing is known yet, and the files that they reach: of these is not shown
+    what has to hold in each root."""
+    knows_roots: bool
+    """Whether it is known which roots reach which files; else that is so for all."""
     before: Round | None
     only_news: bool
     """Whether `before` is all there is to tell where the roots that are asked for are what they were."""
@@ -100,26 +107,28 @@ class Snapshot:
     def _asked(self, workspace: Workspace) -> Round:
         known = self.before.analyses if self.before is not None else {}
         asked: dict[Root, Analysis] = {}
-        preliminary = False
+        preliminary = large = False
         failures: list[Failure] = []
         for root in self.asked:
             args = dict(root.args)
             try:
-                is_new_and_large = root not in known and len(workspace.evaluated(root.path, args).tree.nodes) >= LARGE
-                ask = workspace.static if is_new_and_large else workspace.analysed
-                asked[root] = ask(root.path, args)
+                is_new = root not in known and not self.only_news
+                asked[root] = (workspace.of_texts if is_new else workspace.analysed)(root.path, args)
+                _ = asked[root].findings
             except Exception as error:
                 _log.exception("the analysis of %s failed; its findings are unchanged", root)
                 failures.append(Failure.of(error, root.path))
             else:
-                preliminary |= is_new_and_large
+                preliminary |= is_new
+                large |= is_new and len(asked[root].tree.nodes) >= LARGE
         if self.before is not None and self.only_news and self._is_known(asked, self.before):
             return self.before
         others = {root: known[root] for root in self.wanted if root in known and root not in asked}
         changed = {root: frozenset(_changed_files(workspace, analysis)) for root, analysis in others.items()}
         analyses = {root: either[root] for root in self.wanted if root in (either := {**others, **asked})}
         failures += [failure for analysis in asked.values() for failure in analysis.failures]
-        return replace(self._published(workspace, analyses, changed), failures=tuple(failures), preliminary=preliminary)
+        found = self._published(workspace, analyses, changed)
+        return replace(found, failures=tuple(failures), preliminary=preliminary, large=large)
 
     def _is_known(self, asked: Mapping[Root, Analysis], before: Round) -> bool:
         same = (asked.get(root) is before.analyses.get(root) for root in self.asked)
@@ -135,7 +144,8 @@ class Snapshot:
         count = counting({root: each.tree.files for root, each in analyses.items()}, {*self.named, *alone})
         shown_roots = {root: analysis for root, analysis in analyses.items() if root in count}
         reports = {root: _report(root, each, changed.get(root, frozenset())) for root, each in shown_roots.items()}
-        findings = merged(_of_chosen(reports, self.chosen), kept)
+        known = [*_of_chosen(reports, self.chosen)]
+        findings = merged([*known, *self._silent(known, analyses)], kept)
         newest_last = sorted(shown_roots, key=lambda root: not changed.get(root))
         documents = {
             path: document for root in newest_last for path, document in shown_roots[root].all_documents.items()
@@ -156,6 +166,14 @@ class Snapshot:
         kept.end()
         outdated = frozenset(root for root, files in changed.items() if files)
         return Round(analyses, outdated, shown, lacks, diagnostics, kept, converter)
+
+    def _silent(self, known: Iterable[RootFindings], analyses: Mapping[Root, Analysis]) -> Iterator[RootFindings]:
+        """Those that say nothing yet of files that they reach."""
+        if not self.knows_roots:
+            yield RootFindings("", frozenset(path for report in known for path in report.files), ())
+        for root, files in self.awaited.items():
+            if root not in analyses:
+                yield RootFindings(root.label, files, ())
 
 
 def _lacks_arguments(analysis: Analysis) -> bool:

@@ -24,6 +24,6 @@ def register(server: PreflightServer) -> None:
         document = ls.texts.get(params.text_document.uri)
         session = ls.session_of(params.text_document.uri)
         if session is not None and document is not None and document.path is not None:
-            await session.analyses.settled()
+            await session.analyses.published()
             found = ls.publisher.pull(document.path)
         return types.RelatedFullDocumentDiagnosticReport(found)
