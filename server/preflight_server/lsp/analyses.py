@@ -115,7 +115,7 @@ class Analyses:
 
     def of_roots(self) -> list[Analysis]:
         """Those of the roots that reach open files, of those that files are shown in first."""
-        return [self.all[root] for root in self._wanted() if root in self.all]
+        return [self.all[root] for root in self.wanted() if root in self.all]
 
     def of(self, path: str) -> Iterator[Analysis]:
         """Those that reach a file, the one that it is shown in first."""
@@ -130,7 +130,7 @@ class Analyses:
 
     # Which roots are analysed
 
-    def _wanted(self) -> list[Root]:
+    def wanted(self) -> list[Root]:
         """The roots to be analysed: for each open file the one that it is shown in, then the others."""
         return list(dict.fromkeys((*self._shown(), *self._session.choice.others())))
 
@@ -179,7 +179,7 @@ class Analyses:
         with contextlib.suppress(asyncio.CancelledError):
             if not await self._pauses(PAUSE_BEFORE_BRANCHES) or not self._settled.is_set():
                 return  # they are looked into at the next pause
-            for root in self._wanted():
+            for root in self.wanted():
                 found = None
                 rounds = 0
                 while found is None or (rounds < MAX_ROUNDS and await self._session.runs.of_branches(found.asked)):
@@ -206,7 +206,7 @@ class Analyses:
 
     async def _ask_others(self, workspace: Workspace, shown: Collection[Root]) -> bool:
         """Ask for the roots that no file is shown in, one after another; whether nothing came before that."""
-        for root in self._wanted():
+        for root in self.wanted():
             if root not in shown and not await self._ask(workspace, [root], only_news=True):
                 return False
         return True
@@ -234,7 +234,7 @@ class Analyses:
         session, choice = self._session, self._session.choice
         return Snapshot(
             asked,
-            list(dict.fromkeys((*self._wanted(), *asked))),
+            list(dict.fromkeys((*self.wanted(), *asked))),
             {root: session.runs.results(root) for root in asked},
             frozenset((*choice.chosen, *session.indexing.named)),
             frozenset(self._shown()),
@@ -252,7 +252,7 @@ class Analyses:
     def _awaited(self) -> dict[Root, frozenset[str]]:
         """The files of the roots that are still to be analysed."""
         entries = self._session.indexing.index.entries
-        new = (root for root in self._wanted() if root not in self.all)
+        new = (root for root in self.wanted() if root not in self.all)
         return {r: frozenset((*entries[r].files, *entries[r].inputs)) for r in new if r in entries}
 
     def _build_files(self) -> list[str]:

@@ -113,6 +113,11 @@ class PreflightServer(LanguageServer):
         session = self.session_of(uri)
         return await session.view(uri, python=python) if session is not None else None
 
+    def looked_at(self, uri: str) -> None:
+        """The user looks at a document: no client says so, but each asks for some things of that one alone."""
+        if (session := self.session_of(uri)) is not None:
+            session.looked_at(uri)
+
     def refuse_frame(self, why: str) -> None:
         """Answer a message that cannot be read, from whichever thread reads."""
         _log.warning("a message of the client: %s", why)

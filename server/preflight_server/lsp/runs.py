@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import logging
 import threading
+from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import field
@@ -37,6 +38,9 @@ _log = logging.getLogger(__name__)
 SWITCHED_OFF = "the setting rosPreflight.runNodes is off"
 NOT_TRUSTED = "the workspace is not trusted; trust it to run its nodes in the sandbox"
 CANCELLED = "the runs were cancelled; save the file to start them again"
+FIRST_RUNS = 24
+"""Nodes of a launch that are run before others have their turn, and twice as many each time thereafter: all of it is
+analysed again after that."""
 NotRunSince = Literal["off", "untrusted", "cancelled", "sandbox"]
 _KINDS: Mapping[str, NotRunSince] = {SWITCHED_OFF: "off", NOT_TRUSTED: "untrusted", CANCELLED: "cancelled"}
 
@@ -97,6 +101,10 @@ class Runs:
         self._fresh: dict[Root, set[NodeKey]] = {}
         """Nodes that the user wants to be run anew."""
         self._batch: _Batch | None = None
+        self._cut_off: Root | None = None
+        """The root of the last batch where that did not have all of its nodes: now others have their turn."""
+        self._turns: Counter[Root] = Counter()
+        """How often a root was cut off since all of its nodes were known."""
         self._not_before = 0.0
         self._wanted = False
         self._loop: asyncio.Task[None] | None = None
@@ -185,6 +193,16 @@ class Runs:
         else:
             self.commands.reconsider(self._session.analyses.of_roots())
 
+    def closed(self) -> None:
+        """A file was closed: what runs for no open one ends."""
+        if self._batch is not None and self._batch.root not in self._session.analyses.wanted():
+            self._batch.stop()
+
+    def look_again(self) -> None:
+        """The user looks at another file: its runs come first."""
+        if self._batch is not None:
+            self._server.spawn(self._reconsider(self._batch))
+
     async def of_branches(self, lines: Collection[str]) -> bool:
         """Run the Python launch files that only branches reach, where nodes may be run. Whether to ask again what lines
         there are."""
@@ -224,10 +242,14 @@ class Runs:
             self._wanted = False
             await self._probe()
             if self.why_not_run is None:
-                for analysis in self._session.analyses.of_roots():
+                for analysis in self._in_turn():
                     async with self._server.turn_to_run:
                         if not self._wanted and not self._closing and self.why_not_run is None:
                             await self._round(analysis)
+
+    def _in_turn(self) -> list[Analysis]:
+        """The analysed roots in the order in which their nodes are run: those that the user looks at first."""
+        return sorted(self._session.analyses.of_roots(), key=lambda each: each.launch == self._cut_off)
 
     async def _probe(self) -> None:
         """Find out, once, whether a sandbox works here."""
@@ -275,12 +297,14 @@ class Runs:
 
     async def _run(self, tracer: Tracer, root: Root, requests: Mapping[NodeKey, TraceRequest]) -> None:
         loop = asyncio.get_running_loop()
-        progress = Progress(self._server, "Running nodes in the sandbox", "tracing", len(requests))
         focus = self._session.focus
         # The nodes of the file that is being looked at come first.
         keys = sorted(requests, key=lambda key: requests[key].launch != focus)
+        most = FIRST_RUNS << self._turns[root]
+        is_cut_off, keys = len(keys) > most, keys[:most]
         fresh = self._fresh.get(root, set())
         jobs = [_Job(requests[key], key in fresh) for key in keys]
+        progress = Progress(self._server, "Running nodes in the sandbox", "tracing", len(keys))
         batch = self._batch = _Batch(root, dict(zip(keys, jobs, strict=True)), progress)
         edition = self._results.edition
         done = 0
@@ -312,6 +336,8 @@ class Runs:
             raise
         finally:
             self._batch = None
+            self._cut_off = root if is_cut_off else None
+            self._turns[root] = self._turns[root] + 1 if is_cut_off else 0
             self._changed()  # an analysis that has all results already may be the last
             progress.end("cancelled" if batch.cancelled.is_set() else counted(len(keys), "node"))
         self._session.analyses.ask_again()
@@ -323,7 +349,7 @@ class Runs:
     async def _reconsider(self, batch: _Batch) -> None:
         """End the runs of a batch that the launch file does not ask for any more, and let the root that the user looks
         at now go first. A run that is under way may still tell what is asked for now: that depends on what it reads."""
-        roots = self._session.analyses.of_roots()
+        roots = self._in_turn()
         analysis = next((a for a in roots if a.launch == batch.root), None)
         if analysis is None:
             batch.stop()

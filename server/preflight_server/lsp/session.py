@@ -40,7 +40,7 @@ from preflight_server.lsp.launch_documents import (
 from preflight_server.lsp.root_choice import RootChoice
 from preflight_server.lsp.runs import Runs
 from preflight_server.lsp.settings import Settings, as_mapping
-from preflight_server.lsp.text_store import OpenDocument
+from preflight_server.lsp.text_store import OpenDocument, to_path
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -149,6 +149,7 @@ class Session:
         """A document that this folder depends on was closed."""
         self.choice.leave(path)
         self.runs.commands.typed(stop=False)
+        self.runs.closed()
         self._touch(path, None, quiet=0)
 
     def released(self, path: str) -> None:
@@ -301,6 +302,13 @@ class Session:
         if isinstance(text, Unreadable) or not is_python(path, text.text):
             return self._sources.launch_file(path)
         return LaunchFile(path, 2, None, text, partial=True)
+
+    def looked_at(self, uri: str) -> None:
+        """The user looks at an open file: what it needs is run first."""
+        path = to_path(uri)
+        if path is not None and self.shows(path) and self.focus != path:
+            self.choice.to_front(path)
+            self.runs.look_again()
 
     @property
     def focus(self) -> str | None:

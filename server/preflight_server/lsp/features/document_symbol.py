@@ -18,6 +18,7 @@ def register(server: PreflightServer) -> None:
     async def document_symbol(
         ls: PreflightServer, params: types.DocumentSymbolParams
     ) -> list[types.DocumentSymbol] | list[types.SymbolInformation] | None:
+        ls.looked_at(params.text_document.uri)
         view = await ls.view_of(params.text_document.uri, python=True)
         launch_file = view.analysis.launch_files.get(view.path) if view else None
         if view is None or launch_file is None:

@@ -31,6 +31,7 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(ls: PreflightServer, params: types.HoverParams) -> types.Hover | None:
+        ls.looked_at(params.text_document.uri)
         view = await ls.view_of(params.text_document.uri, python=True)
         if view is None:
             return None
