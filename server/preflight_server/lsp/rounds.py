@@ -106,21 +106,13 @@ class Snapshot:
 
     def _asked(self, workspace: Workspace) -> Round:
         known = self.before.analyses if self.before is not None else {}
-        asked: dict[Root, Analysis] = {}
-        preliminary = large = False
         failures: list[Failure] = []
-        for root in self.asked:
-            args = dict(root.args)
-            try:
-                is_new = root not in known and not self.only_news
-                asked[root] = (workspace.of_texts if is_new else workspace.analysed)(root.path, args)
-                _ = asked[root].findings
-            except Exception as error:
-                _log.exception("the analysis of %s failed; its findings are unchanged", root)
-                failures.append(Failure.of(error, root.path))
-            else:
-                preliminary |= is_new
-                large |= is_new and len(asked[root].tree.nodes) >= LARGE
+        new = [root for root in self.asked if root not in known and not self.only_news]
+        # One after another: the first is that of the file which the user looks at.
+        asked = self._each(new[:1], workspace.of_texts, failures)
+        preliminary = bool(asked)
+        large = any(len(analysis.tree.nodes) >= LARGE for analysis in asked.values())
+        asked = asked or self._each(self.asked, workspace.analysed, failures)
         if self.before is not None and self.only_news and self._is_known(asked, self.before):
             return self.before
         others = {root: known[root] for root in self.wanted if root in known and root not in asked}
@@ -129,6 +121,22 @@ class Snapshot:
         failures += [failure for analysis in asked.values() for failure in analysis.failures]
         found = self._published(workspace, analyses, changed)
         return replace(found, failures=tuple(failures), preliminary=preliminary, large=large)
+
+    def _each(
+        self, roots: Iterable[Root], ask: Callable[[str, dict[str, str]], Analysis], failures: list[Failure]
+    ) -> dict[Root, Analysis]:
+        """The roots with their findings; those that break are noted."""
+        asked = {}
+        for root in roots:
+            try:
+                analysis = ask(root.path, dict(root.args))
+                _ = analysis.findings
+            except Exception as error:
+                _log.exception("the analysis of %s failed; its findings are unchanged", root)
+                failures.append(Failure.of(error, root.path))
+            else:
+                asked[root] = analysis
+        return asked
 
     def _is_known(self, asked: Mapping[Root, Analysis], before: Round) -> bool:
         same = (asked.get(root) is before.analyses.get(root) for root in self.asked)
