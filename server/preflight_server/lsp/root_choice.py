@@ -107,9 +107,11 @@ class RootChoice:
     def of(self, path: str) -> list[Root]:
         """The roots that reach a launch file, or to which another file is handed over, the one that it is shown in
         first. None reads a file that is something else."""
-        found = [*dict.fromkeys(self._ranked(path))]
+        found, is_launched = [*dict.fromkeys(self._ranked(path))], self.is_launched(path)
+        if not is_launched:
+            found = [root for root in found if root.path != path]  # it was a launch file when that was decided
         first = next((root for root in found if not self._is_refuted(root, path)), None)
-        if first is None and self.is_launched(path):
+        if first is None and is_launched:
             first = Root(path)
         return [*dict.fromkeys((first, *found))] if first is not None else found
 

@@ -150,7 +150,8 @@ class Snapshot:
         kept = Kept(self.before.kept if self.before is not None else None)
         alone = (root for root in self.shown if root in analyses and not _lacks_arguments(analyses[root]))
         count = counting({root: each.tree.files for root, each in analyses.items()}, {*self.named, *alone})
-        shown_roots = {root: analysis for root, analysis in analyses.items() if root in count}
+        # Which of them comes first decides how a finding is worded: not the file that was edited last.
+        shown_roots = {root: analyses[root] for root in sorted(analyses) if root in count}
         reports = {root: _report(root, each, changed.get(root, frozenset())) for root, each in shown_roots.items()}
         known = [*_of_chosen(reports, self.chosen)]
         findings = merged([*known, *self._silent(known, analyses)], kept)
