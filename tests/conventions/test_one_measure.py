@@ -8,6 +8,8 @@ from pathlib import Path
 from support.editor_harness import ROOT
 
 _MEASURES = ("rapidfuzz", "difflib", "Levenshtein", "jellyfish")
+_PATCH = "unified_diff"
+"""It writes the differences of two texts, and measures nothing."""
 _OURS = "slips.py"
 _INSIDE = "tracing/agents/"
 """What runs in the sandbox has the standard library only."""
@@ -27,6 +29,6 @@ def _measures(path: Path) -> bool:
     modules = [
         each.module or "" if isinstance(each, ast.ImportFrom) else each.names[0].name
         for each in ast.walk(ast.parse(path.read_text()))
-        if isinstance(each, ast.Import | ast.ImportFrom)
+        if isinstance(each, ast.Import | ast.ImportFrom) and [name.name for name in each.names] != [_PATCH]
     ]
     return any(module.partition(".")[0] in _MEASURES for module in modules)

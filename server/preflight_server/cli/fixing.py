@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from difflib import unified_diff
 from pathlib import Path
 
 from preflight_analysis.dataclass import dataclass
@@ -57,7 +57,7 @@ class Planned:
         for file, change in sorted(self.changes.items()):
             name = relative(file, base)
             before, after = (text.splitlines(keepends=True) for text in (change.before, change.after))
-            for line in difflib.unified_diff(before, after, name, name):
+            for line in unified_diff(before, after, name, name):
                 yield line if line.endswith(("\n", "\r")) else f"{line}\n\\ No newline at end of file\n"
 
 
