@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 import yaml
+from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation.ros2 import rcl_yaml
+from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed
 from preflight_analysis.rules.registry import run_rules
 from support.check import analyse, read_fixture
@@ -130,6 +132,26 @@ def test_values_of_parameter_files(tmp_path: Path) -> None:
             wrong = answer == "InvalidParameterTypeException" or (answer == "taken" and given is None)
             assert (("PRM014", kind) in said) == wrong, (text, kind, answer, said)
             assert (("PRM016", kind) in said) == (answer == "refused"), (text, kind, answer, said)
+
+
+FILES = (
+    *("n:\n  ros__parameters:\n", "n:\n  ros__parameters: 3\n", "n:\n  ros__parameters: {}\n"),
+    *("n:\n  ros__parameters:\n    a: &x 1\n    b: *x\n", "n:\n  ros__parameters: &x\n    a: 1\n"),
+    *("n:\n  ros__parameters:\n    a: {}\n    b: 1\n", "n:\n  ros__parameters:\n    b: 1\n    a: {}\n"),
+    *("n:\n  ros__parameters:\n    a: [{b: 1, c: d}]\n", "n:\n  ros__parameters:\n    a: [{b: 1}, {b: 2}]\n"),
+    *("n:\n  ros__parameters:\n    a: [1, {b: x}]\n", "n:\n  ros__parameters:\n    a: '*x'\n    b: a *b\n"),
+)
+"""Whole files, of which rcl refuses some."""
+
+
+def test_files_that_rcl_refuses(tmp_path: Path) -> None:
+    paths = [tmp_path / f"{index}.yaml" for index in range(len(FILES))]
+    for path, text in zip(paths, FILES, strict=True):
+        path.write_text(text)
+    answers = real([(str(path), None) for path in paths])
+    for path, text, (status, _) in zip(paths, FILES, answers, strict=True):
+        file = read_param_file(Document(str(path), text))
+        assert bool(file.refused) == (status == "refused"), text
 
 
 def test_simulated_time(tmp_path: Path) -> None:

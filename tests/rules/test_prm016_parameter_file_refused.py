@@ -33,6 +33,36 @@ def test_what_a_parameter_file_cannot_have() -> None:
     """)
 
 
+def test_what_rcl_makes_nothing_of() -> None:
+    """As real rcl has it: `tests/evaluation/test_types_against_rclpy.py`."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/a.yaml"/></node>
+          <node pkg="p" exec="b" name="b"><param from="/b.yaml"/></node>
+          <node pkg="p" exec="c" name="c"><param from="/c.yaml"/></node>
+        </launch>
+        //- /a.yaml
+        a:
+          ros__parameters:
+          ^^^^^^^^^^^^^^^ error[PRM016] 'ros__parameters' without parameters below it
+        //- /b.yaml
+        b:
+          ros__parameters:
+            rate: &rate 5
+            again: *rate
+                   ^^^^^ error[PRM016] an alias ('*rate'); rcl refuses the whole file
+        //- /c.yaml
+        c:
+          ros__parameters:
+            plugins: [{name: front, port: 3}]
+                     ^^^^^^^^^^^^^^^^^^^^^^^^ error[PRM016] a list with dictionaries in it: 'plugins'
+            gains: {}
+            ^^^^^ error[PRM016] an empty group of parameters before others: 'gains'
+            rate: 5
+    """)
+
+
 def test_one_bad_value_stops_each_node_that_gets_the_file() -> None:
     """As real rclpy has it: `tests/evaluation/test_types_against_rclpy.py`."""
     findings = check("""

@@ -4,6 +4,7 @@ an argument names them, the launch file could not be followed."""
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import PurePath
 
@@ -49,6 +50,7 @@ _MOST = 200
 """Files of one package that are read."""
 _LONGEST = 200_000
 """Characters of one."""
+_MAY_BE_MARK = re.compile(r"^[ \t]+ro?s?_*pa?ra?m\w*:", re.MULTILINE)
 _JOINTS = ("joint", "joints")
 _LOOSE = doubts(NOT_GIVEN=True)
 _TOGETHER = 4
@@ -69,13 +71,24 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             yield from _of_ros1(context, share)
         return
     given = first_getters(context).keys()
-    folders = _folders(context, package.share)
-    files = {path for folder, base in folders for path in _param_files(context.disk.db, folder, base)}
-    for path in sorted(files):
+    files = _files_around(context, package.share)
+    for path in loose_param_files(context):
         document = context.disk.text(path)
-        if path in given or not isinstance(document, Document):
-            continue
-        yield from _of_ros2(context, document, package.share, files | given)
+        if isinstance(document, Document):
+            yield from _of_ros2(context, document, package.share, files | given)
+
+
+def loose_param_files(context: Context) -> list[str]:
+    """The parameter files of the package of ROS 2 that the launch file is in which no node of the launch gets."""
+    package = package_around(context.environment, context.root)
+    if package is None or context.environment.is_installed(package) or not context.tree.ros.own_parameters:
+        return []
+    return sorted(_files_around(context, package.share) - first_getters(context).keys())
+
+
+def _files_around(context: Context, share: str) -> frozenset[str]:
+    folders = _folders(context, share)
+    return frozenset(path for folder, base in folders for path in _param_files(context.disk.db, folder, base))
 
 
 def findings_of_param_file(context: Context) -> Iterator[Finding]:
@@ -89,7 +102,8 @@ def findings_of_param_file(context: Context) -> Iterator[Finding]:
     # Others may be of programs that read another YAML.
     is_likely = MARK in document.text or "param" in os.path.basename(path) or _is_in_their_folder(path, share)
     if MARK in document.text or context.tree.ros.own_parameters:
-        if MARK in document.text or (is_likely and read_param_file(document).problem is not None):
+        file = read_param_file(document)
+        if MARK in document.text or (is_likely and (file.problem is not None or file.misspelt)):
             around = files_in(context.disk, os.path.dirname(path), deep=False)
             beside = (each for each in around if each.endswith(_SUFFIXES))
             yield from _of_ros2(context, document, share, beside)
@@ -128,8 +142,8 @@ def _of_ros2(context: Context, document: Document, share: str, beside: Iterable[
     if file.problem is not None:
         yield _no_yaml(document, *file.problem)
         return
-    # Only what has a section of a node is one for certain.
-    for name, span in file.unmarked[:1] if file.sections else ():
+    # Only what has a section of a node, or was meant to have one, is one for certain.
+    for name, span in file.unmarked[:1] if file.sections or file.misspelt else ():
         message = prm012.MESSAGE.format(not_marked(name))
         place, fixes = document.location(span), prm012.marked(document, span)
         yield prm012.RULE.claim(message, place, subject=Subject("parameter", name), doubts=_LOOSE, fixes=fixes)
@@ -303,4 +317,4 @@ def _is_one(db: Database, path: str, base: str) -> bool:
         return False
     document = Disk(db).text(path)
     text = document.text if isinstance(document, Document) else ""
-    return len(text) <= _LONGEST and MARK in text and "$(" not in text
+    return len(text) <= _LONGEST and "$(" not in text and (MARK in text or _MAY_BE_MARK.search(text) is not None)

@@ -6,7 +6,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.edits.yaml import YamlWriter
-from preflight_analysis.evaluation.ros2.param_files import MARK
+from preflight_analysis.evaluation.ros2.param_files import MARK, may_be_mark
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix, Related
@@ -40,7 +40,7 @@ def marked(document: Document, key: Span) -> tuple[Fix, ...]:
     if not isinstance(writer, YamlWriter):
         return ()
     above = [(document.text[span.start : span.end], span) for span in writer.ancestors(key)]
-    slip = next(((name, span) for name, span in above if name.replace("_", "") == MARK.replace("_", "")), None)
+    slip = next(((name, span) for name, span in above if may_be_mark(name)), None)
     if slip is not None:
         return fix(f"Replace '{slip[0]}' with '{MARK}'", writer.replace(slip[1], MARK), preferred=True)
     return fix(f"Put the values below '{MARK}'", writer.nest(key, MARK), preferred=True)

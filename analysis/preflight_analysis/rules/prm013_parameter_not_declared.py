@@ -129,7 +129,14 @@ RULE = Rule(
     name="parameter-not-declared",
     effect="no-effect",
     kind="near",
-    sometimes=(Reason.SHARED, Reason.PARTLY_READ, Reason.NOT_ANALYSED, Reason.FROM_SOURCE, Reason.LATER),
+    sometimes=(
+        Reason.SHARED,
+        Reason.PARTLY_READ,
+        Reason.NOT_ANALYSED,
+        Reason.FROM_SOURCE,
+        Reason.LATER,
+        Reason.NOT_GIVEN,
+    ),
     what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. A value that "
     "several nodes share is not reported if one of them declares it.",
     why="The client libraries ignore the value without an error, and the node uses its default.",

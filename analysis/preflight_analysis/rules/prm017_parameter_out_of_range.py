@@ -8,6 +8,7 @@ from textwrap import shorten
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Text, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
@@ -79,7 +80,7 @@ RULE = Rule(
     name="parameter-out-of-range",
     effect="stops-node",
     kind="invalid",
-    sometimes=OF_REFUSALS,
+    sometimes=(*OF_REFUSALS, Reason.NOT_GIVEN),
     what="Checks for a number outside of the range, or between the steps, of the descriptor with which the node "
     "declares the parameter.",
     why="rclcpp and rclpy raise InvalidParameterValueException in `declare_parameter`, and most nodes exit.",

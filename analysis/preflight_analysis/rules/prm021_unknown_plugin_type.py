@@ -56,6 +56,8 @@ def _of_values(rule: Rule, context: Context) -> Iterator[Finding]:
     """What parameters name that are known to name plugins."""
     distro = context.environment.distro
     for node, values in meant_values(context):
+        if _is_of_workspace(context, node.package):
+            continue  # it may be another version than that of which the values are known
         for each in values:
             meaning, value = each.meaning, each.value
             if each.param is None or not isinstance(value, str):
@@ -133,8 +135,8 @@ def _of_types(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _of_nav(context: Context, named: _Named) -> tuple[str, str | None] | None:
     """What is wrong with a plugin of Nav2 that the distribution has by another name or not at all, and what it has."""
-    distro, own = context.environment.distro, context.environment.packages.get(named.package)
-    if distro is None or not is_known(distro) or (own is not None and own.is_within(context.environment.workspace)):
+    distro = context.environment.distro
+    if distro is None or not is_known(distro) or _is_of_workspace(context, named.package):
         return None
     elsewhere, near = distributions_with(named.type), name_there(named.type, distro)
     # Of a package without plugins there nothing is loaded, such as the navigators of Humble.
@@ -142,6 +144,11 @@ def _of_nav(context: Context, named: _Named) -> tuple[str, str | None] | None:
         return None
     has_it = f", but in {', '.join(elsewhere)}" if near is None else ""
     return f"unknown {named.kind} '{named.type}': Nav2 does not have it in {distro}{has_it}", near
+
+
+def _is_of_workspace(context: Context, package: str) -> bool:
+    own = context.environment.packages.get(package)
+    return own is not None and own.is_within(context.environment.workspace)
 
 
 @derived
@@ -208,6 +215,7 @@ RULE = Rule(
     effect="stops-node",
     kind="near",
     always=(Reason.UNSEEN,),
+    sometimes=(Reason.NOT_GIVEN,),
     what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, if "
     "the package has one of a similar name. The types are those of plugin descriptions or of the catalogue. Other "
     "parameters that choose plugins count, too, such as `robot_model_type` of AMCL and `plugin_allowlist` of MAVROS.",

@@ -53,6 +53,8 @@ _OF_FILES: Mapping[FileKind, tuple[Callable[[Context], Iterable[Finding]], ...]]
     "parameter file": (findings_of_param_file,),
 }
 """What is said of a file for itself, beside what rules say of its package. The root of the context is the file."""
+_OF_PARAMS = ("PRM013", "PRM014", "PRM017", "PRM021")
+"""Rules that speak of one parameter of a node, whatever else there is."""
 _RULE_MODULE = re.compile(r"[a-z]{3}\d{3}_")
 
 
@@ -156,6 +158,16 @@ def found_in_description(disk: Disk, environment: Environment, path: str) -> Ite
     for rule in all_rules():
         if rule.of_description is not None:
             yield from said_of_description(disk.db, rule.of_description, rule, environment, path)
+
+
+def found_in_supposed(context: Context, path: str) -> Iterator[Finding]:
+    """What the rules of single parameters say of a file, in a launch that nobody has written and that gives it to the
+    nodes of its sections: of names that are like none that a node declares they say nothing, as it may be another."""
+    found, _ = _found(context, [rule for rule in all_rules() if rule.id in _OF_PARAMS], None)
+    for each in found:
+        if each.location.file == path and each.kind != "absent":
+            related = tuple(one for one in each.related if one.location.file != context.root)
+            yield doubted(replace(each, related=related), Doubt(Reason.NOT_GIVEN))
 
 
 def found_in_packages(disk: Disk, environment: Environment, packages: Iterable[Package]) -> Iterator[Finding]:

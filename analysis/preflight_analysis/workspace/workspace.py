@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
 
@@ -50,12 +50,14 @@ from preflight_analysis.model.behavior_trees import trees_of
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installation import build_files_of, packages_in
 from preflight_analysis.robot.sources import documents_of
+from preflight_analysis.rules.loose_param_files import loose_param_files
 from preflight_analysis.rules.registry import (
     all_rules,
     found_in_branch,
     found_in_file,
     found_in_loose_files,
     found_in_packages,
+    found_in_supposed,
     run_rules,
     without_suppressed,
 )
@@ -79,6 +81,7 @@ from preflight_analysis.workspace.project_settings import (
 from preflight_analysis.workspace.resolve_node_names import resolve_node_names
 from preflight_analysis.workspace.run_results import RESULTS, RunResults
 from preflight_analysis.workspace.sources import TEXTS_BEFORE, Sources
+from preflight_analysis.workspace.supposed_launch import WithSupposed, supposed_launch
 
 MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
@@ -256,7 +259,7 @@ class Workspace:
     def environment_of(self, path: str) -> Environment:
         """The environment as a launch file sees it."""
         found = self.sources.launch_file(path)
-        generation = self.environment.generation if isinstance(found, Unreadable) else found.generation
+        generation = self._generation_of(self.package_of(path)) if isinstance(found, Unreadable) else found.generation
         db = self.sources.db
         environment = _of_generation(db, self.environment, generation)
         meant = meant_by(environment, path)
@@ -419,7 +422,7 @@ class Workspace:
             return found
 
         found = branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask, ask_params)
-        found = found.with_others(found_in_loose_files(analysis.context), self.sources)
+        found = found.with_others(self._found_in_loose_files(analysis.context), self.sources)
         return replace(found, failures=tuple(failures))
 
     def findings_of_packages(
@@ -430,14 +433,27 @@ class Workspace:
         found: list[Finding] = []
         for each in packages:
             found += found_in_packages(self.sources, self.environment, (each,))
-            loose = found_in_loose_files(self._context_of(each.manifest, each)) if param_files else ()
+            loose = self._found_in_loose_files(self._context_of(each.manifest, each)) if param_files else ()
             found += without_suppressed(self.sources, loose)
         return self._with_texts(tuple(found))
 
     def findings_of_file(self, path: str, kind: FileKind) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
         """What is wrong with a file that is no launch file, and the texts of the files."""
         package = self.package_of(path)
-        return self._with_texts(found_in_file(self._context_of(path, package), kind, package))
+        found = found_in_file(self._context_of(path, package), kind, package)
+        if kind == "parameter file":
+            found = tuple(_with_further(found, without_suppressed(self.sources, self._as_supposed(path))))
+        return self._with_texts(found)
+
+    def _found_in_loose_files(self, context: Context) -> Iterator[Finding]:
+        """What is wrong with files that no node of a launch gets."""
+        found = list(found_in_loose_files(context))
+        supposed = (each for path in loose_param_files(context) for each in self._as_supposed(path))
+        yield from _with_further(found, without_suppressed(self.sources, supposed))
+
+    def _as_supposed(self, path: str) -> tuple[Finding, ...]:
+        """What rules say of a parameter file of ROS 2 where the nodes get it that it has sections for."""
+        return _as_supposed(self.sources.db, self, path)
 
     def package_of(self, path: str) -> Package | None:
         """The package that a file is in, also one that is ignored where packages are looked for."""
@@ -445,10 +461,13 @@ class Workspace:
 
     def _context_of(self, path: str, package: Package | None) -> Context:
         """What there is to ask of a file that is no launch file."""
-        generation = package.generation if package is not None else self.environment.generation
+        generation = self._generation_of(package)
         environment = _of_generation(self.sources.db, self.environment, generation)
         tree = nothing_launched(path, generation)
         return _of_tree(self.sources.db, self, Root(path), tree, environment).context
+
+    def _generation_of(self, package: Package | None) -> int:
+        return package.generation if package is not None else self.environment.generation
 
     def _with_texts(self, found: tuple[Finding, ...]) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
         found = adjusted(found, self.settings.severities)
@@ -702,6 +721,31 @@ def _params_if(
     pause = partial(_executables, db, workspace, known.environment)
     failures: list[Failure] = []
     return tuple(each for each in found_in_branch(known.context, pause, failures) if each.lack is None), tuple(failures)
+
+
+@query
+def _as_supposed(db: Database, workspace: Workspace, path: str) -> tuple[Finding, ...]:
+    environment, package = workspace.environment_of(path), workspace.package_of(path)
+    executables, document = _executables(db, workspace, environment), workspace.sources.text(path)
+    if package is None or package.generation != 2 or not isinstance(document, Document):
+        return ()
+    launch = supposed_launch(db, environment, executables, package, document)
+    if launch is None:
+        return ()
+    within = replace(_surroundings(db, workspace, environment), files=WithSupposed(workspace.sources, *launch))
+    tree = evaluate_launch(launch.path, {}, within)
+    static = _of_tree(db, workspace, Root(launch.path), tree, environment)
+    known = workspace.with_interfaces(static, [not_run(node, executables) for node in tree.nodes], None)
+    return tuple(found_in_supposed(known.context, path))
+
+
+def _with_further(found: Iterable[Finding], further: Iterable[Finding]) -> Iterator[Finding]:
+    """Findings, with those of places of which they say nothing."""
+    places = set()
+    for each in found:
+        places.add(each.location)
+        yield each
+    yield from (each for each in further if each.location not in places)
 
 
 def _left_out_around(tree: LaunchTree, file: str, offset: int) -> NotTaken | None:

@@ -21,12 +21,17 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, constructed, parse_yaml, span_of
 from preflight_analysis.evaluation.ros2 import rcl_yaml
 from preflight_analysis.incremental.derived import derived
+from preflight_analysis.slips import edits
 
 MARK = "ros__parameters"
 EVERY = "/**"
 """The key of what is for every node."""
 _TABS_AT_END = re.compile(r"(?<=\S)[ \t]*\t[ \t]*(?=#|$)", re.MULTILINE)
 """Before a comment, or the end of a line that has something."""
+_MAY_BE_ALIAS = re.compile(r"(?:^|[\s\[{,:-])\*[\w.-]+\s*(?:$|[\]},#:])", re.MULTILINE)
+_SHORT_MARK = re.compile(r"ros_+param(?:eter)?s?")
+_SLIP = 2
+"""Letters by which a key may differ from the mark."""
 _MAX_DEPTH = 40
 _MAX_KEYS = 50_000
 """Of one file; aliases of aliases would otherwise make any number of them."""
@@ -84,6 +89,8 @@ class ParamFile:
     unmarked: tuple[tuple[str, Span], ...] = ()
     refused: tuple[tuple[str, Span], ...] = ()
     flat: tuple[FileParam, ...] = ()
+    misspelt: bool = False
+    """Whether a key is a slip of `ros__parameters`."""
 
     @property
     def repeated(self) -> Iterator[tuple[FileParam, FileParam]]:
@@ -115,6 +122,11 @@ class ParamFile:
         return [at for at, section in enumerate(self.sections) if not section.exact]
 
 
+def may_be_mark(key: str) -> bool:
+    """Whether a key is a slip of `ros__parameters`."""
+    return key != MARK and (edits(key, MARK, _SLIP) <= _SLIP or _SHORT_MARK.fullmatch(key) is not None)
+
+
 def read_param_file(document: Document) -> ParamFile:
     """The sections of a parameter file in the order in which they are written."""
     return _of_document(document)
@@ -143,8 +155,28 @@ def _read(text: str) -> ParamFile:
     reader = _Reader()
     if isinstance(parsed.node, yaml.MappingNode):
         reader.nodes(parsed.node, (), (), 0)
+    reader.refused += _aliases(text) if reader.sections and problem is None else ()
     flat = _Reader().params(parsed.node) if not reader.sections and isinstance(parsed.node, yaml.MappingNode) else ()
-    return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked), tuple(reader.refused), tuple(flat))
+    return ParamFile(
+        tuple(reader.sections), problem, tuple(reader.unmarked), tuple(reader.refused), tuple(flat), reader.misspelt
+    )
+
+
+def _aliases(text: str) -> Iterator[tuple[str, Span]]:
+    """The first alias: libyaml tells rcl of it, which supports none (`parse_file_events`)."""
+    if _MAY_BE_ALIAS.search(text) is None:
+        return
+    for event in yaml.parse(text, Loader=yaml.SafeLoader):
+        if isinstance(event, yaml.AliasEvent) and event.start_mark is not None and event.end_mark is not None:
+            yield f"an alias ('*{event.anchor}')", Span(event.start_mark.index, event.end_mark.index)
+            return
+
+
+def _emptied(params: yaml.MappingNode) -> Iterator[tuple[str, Span]]:
+    """Empty groups with more behind them: where one ends, rcl takes that for the end of all parameters."""
+    for key, value in params.value[:-1]:
+        if isinstance(value, yaml.MappingNode) and not value.value and isinstance(key, yaml.ScalarNode):
+            yield f"an empty group of parameters before others: '{key.value}'", span_of(key)
 
 
 def _blanks(found: re.Match[str]) -> str:
@@ -156,6 +188,7 @@ class _Reader:
         self.sections: list[Section] = []
         self.unmarked: list[tuple[str, Span]] = []
         self.refused: list[tuple[str, Span]] = []
+        self.misspelt = False
         self._keys = 0
 
     def nodes(self, node: yaml.MappingNode, keys: tuple[str, ...], spans: tuple[Span, ...], depth: int) -> None:
@@ -165,12 +198,16 @@ class _Reader:
                 continue
             name, span = str(key.value), span_of(key)
             if name == MARK:
-                if isinstance(value, yaml.MappingNode):
+                if isinstance(value, yaml.ScalarNode):
+                    self.refused.append((f"'{MARK}' without parameters below it", span))
+                elif isinstance(value, yaml.MappingNode):
                     params = tuple(self._params(value, "", depth))
+                    self.refused += _emptied(value)
                     if any("//" in f"{key}/{below}" for key, below in pairwise(keys)):
                         self.refused.append(("a node's name with two slashes: '" + "/".join(keys) + "'", spans[0]))
                     self.sections.append(Section(_pattern(keys), spans or (span,), params, _key(keys)))
             elif isinstance(value, yaml.MappingNode):
+                self.misspelt = self.misspelt or may_be_mark(name)
                 self.nodes(value, (*keys, name), (*spans, span), depth + 1)
             else:
                 self.unmarked.append((name, span))

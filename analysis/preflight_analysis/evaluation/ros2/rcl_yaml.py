@@ -8,7 +8,7 @@ a text of the launch file may arrive as something else.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import yaml
@@ -84,9 +84,22 @@ def refused(node: yaml.Node) -> str | None:
     mixed = refused_items([scalar(each) for each in node.value if isinstance(each, yaml.ScalarNode)])
     if mixed is not None:
         return mixed
+    if any(isinstance(each, yaml.MappingNode) for each in node.value):
+        # rcl takes the values of all of them for items of the list.
+        return "a list with dictionaries in it" if refused_items(map(scalar, _values_in(node))) is not None else None
     if len(node.value) > 1 and any(isinstance(each, yaml.SequenceNode) for each in node.value):
         return "a list of lists"
     return None
+
+
+def _values_in(node: yaml.Node) -> Iterator[yaml.ScalarNode]:
+    waiting = [node]
+    while waiting:
+        each = waiting.pop()
+        if isinstance(each, yaml.ScalarNode):
+            yield each
+        else:
+            waiting += each.value if isinstance(each, yaml.SequenceNode) else [value for _, value in each.value]
 
 
 def refused_items(items: Iterable[bool | int | float | str]) -> str | None:
