@@ -233,6 +233,15 @@ def parts_for(db: Database, environment: Environment, path: str) -> tuple[tuple[
 
 
 @query
+def materials_for(db: Database, environment: Environment, path: str) -> tuple[frozenset[str], bool]:
+    """The materials of the robots that a file is of, each as it is written, and whether these are all."""
+    files, whole = _closure(db, environment, tops_of(db, environment, path))
+    found = [xacro_file(db, each) for each in files]
+    known = frozenset[str]().union(*(file.materials for file in found if file is not None))
+    return known, whole and None not in found and not any(file is not None and file.open for file in found)
+
+
+@query
 def defined_anywhere(db: Database, environment: Environment) -> Defined:
     """What all files of the workspace define."""
     return Defined.of(filter(None, (xacro_file(db, each) for each in _all_files(db, environment))), whole=False)

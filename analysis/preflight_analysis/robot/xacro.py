@@ -189,6 +189,10 @@ class XacroFile:
     """What elements of Gazebo call so."""
     texts: tuple[tuple[SpannedText, Around], ...] = ()
     """The values and texts that xacro computes."""
+    materials: frozenset[str] = frozenset()
+    """The materials that have a color or a texture."""
+    materials_used: tuple[Written, ...] = ()
+    """Those that links name."""
 
 
 def is_made_of(text: str, pieces: Sequence[str]) -> bool:
@@ -228,6 +232,8 @@ class _Reader:
         self.parts: list[Part] = []
         self.named: list[Part] = []
         self.texts: list[tuple[SpannedText, Around]] = []
+        self.materials: set[str] = set()
+        self.materials_used: list[Written] = []
         self.open = bool(document.problems)
         root = document.root
         self.is_xacro = document.path.endswith(".xacro") or (root is not None and _is_xacro(root, document.path))
@@ -254,6 +260,8 @@ class _Reader:
             tuple(self.parts),
             tuple(self.named),
             tuple(self.texts),
+            frozenset(self.materials),
+            tuple(self.materials_used),
         )
 
     def _element(self, element: Element, around: Around, parent: str) -> Around:
@@ -263,6 +271,8 @@ class _Reader:
         is_own = tag.startswith(XACRO) or (self.is_xacro and tag in _OLD_TAGS and self._is_old(element))
         self._values(element, around, tag)
         self._file_names(element, around)
+        if tag == "material":
+            self._material(element, around, parent)
         if not self.is_xacro:
             return around
         if not is_own:
@@ -344,6 +354,15 @@ class _Reader:
                     text = each.content.text.strip()
                     span = each.content.slice_span(start, start + len(text))
                     self.files.append(Written(text, span, "uri", around))
+
+    def _material(self, element: Element, around: Around, parent: str) -> None:
+        name = element.get("name")
+        if name is None:
+            return
+        if any(element.elements):
+            self.materials.add(name.value.text)
+        elif parent == "visual":
+            self.materials_used.append(Written(name.value.text, name.value.span, "material", around))
 
     def _values(self, element: Element, around: Around, tag: str) -> None:
         values = [each.value for each in element.attributes if not each.name.startswith("xmlns")]
