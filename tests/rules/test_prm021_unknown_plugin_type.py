@@ -7,6 +7,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import run_rules
 from support import package_elsewhere
 from support.check import check
+from support.descriptions import said, xacro
 
 FIXTURE = """
     //- /robot.launch.xml
@@ -281,3 +282,31 @@ def test_a_value_that_names_a_plugin_or_may_name_one(
     tmp_path: Path, place: tuple[str, str, str], value: str, distro: str
 ) -> None:
     assert _of_value(tmp_path, place, value, distro) == []
+
+
+HARDWARE = """
+<ros2_control name="arm" type="system"><hardware>
+  <plugin>{}</plugin>
+</hardware></ros2_control>
+"""
+EXPORTED = {
+    "CMakeLists.txt": "project(arm)\nfind_package(hardware_interface)\n"
+    "pluginlib_export_plugin_description_file(hardware_interface plugins.xml)\nament_package()\n",
+    "plugins.xml": '<library path="arm"><class name="arm/ArmHardware" type="arm::ArmHardware" '
+    'base_class_type="hardware_interface::SystemInterface"/></library>\n',
+}
+
+
+@pytest.mark.parametrize("named", ["arm/ArmHardwar", "arm::ArmHardware", "arm_driver/ArmHardware"])
+def test_hardware_of_a_description(named: str) -> None:
+    files = {**EXPORTED, "urdf/arm.xacro": xacro(HARDWARE.format(named))}
+    (found,) = said(files, "PRM021")
+    assert found == (
+        f"urdf/arm.xacro:4 warning unknown plugin '{named}' of ros2_control; did you mean 'arm/ArmHardware'? Source: "
+        "the plugin descriptions of the workspace"
+    )
+
+
+@pytest.mark.parametrize("named", ["arm/ArmHardware", "mock_components/GenericSystem", "other/Hand", "${plugin}"])
+def test_hardware_that_is_there_or_elsewhere(named: str) -> None:
+    assert not said({**EXPORTED, "urdf/arm.xacro": xacro(HARDWARE.format(named))}, "PRM021")

@@ -33,6 +33,7 @@ _EXPRESSION = re.compile(r"(?<!\$)(\$+)(?:\{([^}]{0,1000})\}|\(([^()]{0,1000})\)
 COMPUTED = re.compile(r"(?<!\$)\$+(?:\{[^}]{0,1000}\}|\([^()]{0,1000}\))")
 """What xacro puts a value in the place of."""
 _GAZEBO = "gazebo"
+_CONTROL = "ros2_control"
 _NAMING = re.compile(r"(?i)(?:.*joint(?:_?name)?|body_?name|frame_?name)$")
 """Elements of Gazebo's plugins that name a joint, link or frame."""
 _ELSEWHERE = frozenset(("gazebo", "transmission", "ros2_control", "group", "group_state", "plugin", "sensor"))
@@ -193,6 +194,8 @@ class XacroFile:
     """The materials that have a color or a texture."""
     materials_used: tuple[Written, ...] = ()
     """Those that links name."""
+    plugins: tuple[Written, ...] = ()
+    """The classes that hardware of ros2_control is to be loaded by."""
 
 
 def is_made_of(text: str, pieces: Sequence[str]) -> bool:
@@ -234,6 +237,7 @@ class _Reader:
         self.texts: list[tuple[SpannedText, Around]] = []
         self.materials: set[str] = set()
         self.materials_used: list[Written] = []
+        self.plugins: list[Written] = []
         self.open = bool(document.problems)
         root = document.root
         self.is_xacro = document.path.endswith(".xacro") or (root is not None and _is_xacro(root, document.path))
@@ -242,7 +246,7 @@ class _Reader:
         waiting = [(self.document.root, Around(), "", "")] if self.document.root is not None else []
         while waiting:
             element, around, parent, within = waiting.pop()
-            inside = self._element(element, around, parent)
+            inside = self._element(element, around, parent, within)
             self._parts(element, around, within)
             within = within or (element.tag if element.tag in _ELSEWHERE else "")
             waiting += ((each, inside, element.tag, within) for each in reversed(list(element.elements)))
@@ -262,9 +266,10 @@ class _Reader:
             tuple(self.texts),
             frozenset(self.materials),
             tuple(self.materials_used),
+            tuple(self.plugins),
         )
 
-    def _element(self, element: Element, around: Around, parent: str) -> Around:
+    def _element(self, element: Element, around: Around, parent: str, within: str) -> Around:
         """Note what an element has; where its children stand."""
         tag = element.tag
         own = tag.removeprefix(XACRO)
@@ -273,6 +278,8 @@ class _Reader:
         self._file_names(element, around)
         if tag == "material":
             self._material(element, around, parent)
+        elif tag == "plugin" and within == _CONTROL:
+            self.plugins += _text_of(element, around)
         if not self.is_xacro:
             return around
         if not is_own:
@@ -348,12 +355,7 @@ class _Reader:
         if name is not None:
             self.files.append(Written(name.value.text, name.value.span, element.tag, around))
         elif element.tag == "uri":
-            for each in element.children:
-                if isinstance(each, Text) and each.content.text.strip():
-                    start = len(each.content.text) - len(each.content.text.lstrip())
-                    text = each.content.text.strip()
-                    span = each.content.slice_span(start, start + len(text))
-                    self.files.append(Written(text, span, "uri", around))
+            self.files += _text_of(element, around)
 
     def _material(self, element: Element, around: Around, parent: str) -> None:
         name = element.get("name")
@@ -392,6 +394,15 @@ def _is_xacro(root: Element, path: str) -> bool:
             return True
         waiting += element.elements
     return False
+
+
+def _text_of(element: Element, around: Around) -> Iterator[Written]:
+    """The texts in an element, without what is around them."""
+    for each in element.children:
+        if isinstance(each, Text) and each.content.text.strip():
+            start = len(each.content.text) - len(each.content.text.lstrip())
+            text = each.content.text.strip()
+            yield Written(text, each.content.slice_span(start, start + len(text)), element.tag, around)
 
 
 def _values_of(element: Element, name: str) -> list[str]:

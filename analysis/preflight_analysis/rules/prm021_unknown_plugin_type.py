@@ -11,24 +11,32 @@ from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
-from preflight_analysis.catalogue.plugin_names import distributions_with, is_known, name_there, names_of
-from preflight_analysis.catalogue.released import DISTRIBUTIONS
+from preflight_analysis.catalogue.plugin_names import distributions_with as distributions_with_plugin
+from preflight_analysis.catalogue.plugin_names import is_known, name_there, names_of
+from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.derived import derived
+from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.controllers import place_of
+from preflight_analysis.model.descriptions import LOOSE, doubts_of
 from preflight_analysis.model.meant import meant_values
 from preflight_analysis.model.nearest import camel_words, did_you_mean, is_slip
 from preflight_analysis.model.places import related_node
-from preflight_analysis.model.problems import rename
+from preflight_analysis.model.problems import rename, rename_in
 from preflight_analysis.model.sections import first_getters
+from preflight_analysis.robot.xacro import xacro_file
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
 from preflight_analysis.rules.rule import Rule
+from preflight_analysis.source.analyse import SourceAnalysis
 
 _ALIKE = 0.6
 """How many of all the words of two names have to be in both."""
@@ -50,6 +58,38 @@ class _Named(NamedTuple):
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _of_types(rule, context)
     yield from _of_values(rule, context)
+
+
+def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str) -> Iterator[Finding]:
+    """Of the hardware of ros2_control that a description names, and whose class packages of the workspace have by a
+    name like it."""
+    file = xacro_file(disk.db, path)
+    for each in file.plugins if file is not None else ():
+        known = _exported(disk.db, environment)
+        package, _, leaf = each.text.replace("::", "/").rpartition("/")
+        if file is None or not package or "$" in each.text or each.text in known:
+            continue
+        # A class of the same name may well be that of another package, if there is one.
+        end = f"/{leaf}" if package not in environment.packages and not distributions_with(package, 2) else each.text
+        found = [name for name in known if is_slip(each.text, name) or name.replace("::", "/").endswith(end)]
+        if len(found) != 1:
+            continue
+        yield rule.claim(
+            f"unknown plugin '{each.text}' of ros2_control; did you mean '{found[0]}'? Source: the plugin "
+            "descriptions of the workspace",
+            file.document.location(each.span),
+            subject=Subject("plugin", each.text),
+            doubts=(*LOOSE, *doubts_of(each.around, other=False)),
+            candidates=found,
+            fixes=rename_in(file.document, each.span, each.text, found[0]),
+        )
+
+
+@query
+def _exported(db: Database, environment: Environment) -> frozenset[str]:
+    """The plugins of all packages of the workspace, by their descriptions."""
+    analysis = SourceAnalysis(environment, Disk(db))
+    return frozenset(name for package in environment.own_packages for name in analysis.exported(package.name))
 
 
 def _of_values(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -138,7 +178,7 @@ def _of_nav(context: Context, named: _Named) -> tuple[str, str | None] | None:
     distro = context.environment.distro
     if distro is None or not is_known(distro) or _is_of_workspace(context, named.package):
         return None
-    elsewhere, near = distributions_with(named.type), name_there(named.type, distro)
+    elsewhere, near = distributions_with_plugin(named.type), name_there(named.type, distro)
     # Of a package without plugins there nothing is loaded, such as the navigators of Humble.
     if distro in elsewhere or not (near or (elsewhere and names_of(named.package, distro))):
         return None
@@ -218,7 +258,8 @@ RULE = Rule(
     sometimes=(Reason.NOT_GIVEN,),
     what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, if "
     "the package has one of a similar name. The types are those of plugin descriptions or of the catalogue. Other "
-    "parameters that choose plugins count, too, such as `robot_model_type` of AMCL and `plugin_allowlist` of MAVROS.",
+    "parameters that choose plugins count, too, such as `robot_model_type` of AMCL and `plugin_allowlist` of MAVROS. "
+    "The `<plugin>` of `<ros2_control>` in a robot description counts if a package of the workspace has it.",
     why="pluginlib does not find the class. The spawner of the controller exits, or the node does not start.",
     example="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
     instead="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
@@ -229,5 +270,6 @@ RULE = Rule(
     ),
     generations=(2,),
     check=_check,
+    of_description=_of_description,
     in_branches=True,
 )
