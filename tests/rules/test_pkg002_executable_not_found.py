@@ -108,22 +108,29 @@ def test_what_an_executable_that_is_not_built_is_made_of(launch: Path) -> None:
     assert finding.message.endswith("did you mean 'driver'?")
 
 
-def test_an_executable_of_another_package_of_the_launch(launch: Path) -> None:
-    other = launch.parent.parent / "other" / "nodes"
-    other.mkdir(parents=True)
-    (other / "filter").write_text("#!/bin/sh\n")
-    (other / "filter").chmod(0o755)
+def test_an_executable_of_another_package_of_the_workspace(launch: Path) -> None:
+    """Of one that it depends on, or of the only one."""
+    for name in ("more", "other"):
+        nodes = launch.parent.parent / name / "nodes"
+        nodes.mkdir(parents=True)
+        (nodes / "filter").write_text("#!/bin/sh\n")
+        (nodes / "filter").chmod(0o755)
     launch.write_text('<launch><node pkg="demo" type="filter" name="n"/></launch>')
-    for dependencies, hint in ((frozenset({"other"}), "; package 'other' has it"), (frozenset[str](), "spaces)")):
+    has_it, nobody = ("; package 'other' has it", ["other"]), ("spaces)", list[str]())
+    for dependencies, others, (hint, meant) in (
+        (frozenset({"other"}), ("more", "other"), has_it),
+        (frozenset[str](), ("other",), has_it),
+        (frozenset[str](), ("more", "other"), nobody),
+    ):
         packages = {
             "demo": Package("demo", str(launch.parent), "", dependencies),
-            "other": Package("other", str(other.parent), ""),
+            **{name: Package(name, str(launch.parent.parent / name), "") for name in others},
         }
         environment = Environment(1, "noetic", {}, (str(launch.parent.parent),), packages, {}, (), (), None)
         (finding,) = Workspace(environment, Sources(), str(launch.parent)).static(str(launch)).findings
         assert (finding.rule, finding.severity) == ("PKG002", "error")
         assert finding.message.endswith(hint)
-        assert [edit.text for fix in finding.fixes for edit in fix.edits] == sorted(dependencies)
+        assert [edit.text for fix in finding.fixes for edit in fix.edits] == meant
 
 
 def test_an_installed_package_without_its_executables_is_a_lack(tmp_path: Path) -> None:
@@ -282,6 +289,19 @@ def test_a_program_that_a_build_file_names_in_a_way_that_is_not_followed(tmp_pat
     findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
     found = [(f.severity, f.message.partition("; ")[2]) for f in findings if f.rule == "PKG002"]
     assert [severity for severity, _ in found] == ["info", "error"]
+
+
+@pytest.mark.parametrize(
+    ("lists", "said"),
+    [
+        ("project(arm)\nament_package()\n", ["executable 'reader' not found in package 'arm' (0 executables"]),
+        ("project(arm)\ninclude(own.cmake)\nmake_programs()\nament_package()\n", []),
+    ],
+)
+def test_a_package_that_has_launch_files_alone(tmp_path: Path, lists: str, said: list[str]) -> None:
+    launch = '<launch><node pkg="arm" exec="reader"/></launch>'
+    found = findings(tmp_path, {**CMAKE, "CMakeLists.txt": lists, "launch/arm.launch.xml": launch}, "PKG002")
+    assert [each.message.startswith(start) for each, start in zip(found, said, strict=True)] == [True] * len(said)
 
 
 IN_BIN = "error CMakeLists.txt of package 'arm' builds it and installs it in bin, not in lib/arm"

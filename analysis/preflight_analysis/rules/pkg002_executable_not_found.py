@@ -29,6 +29,8 @@ _NO_PROGRAMS = (".h", ".hh", ".hpp", ".c", ".cc", ".cpp", ".cxx", ".txt", ".md",
 """Files that may be executable, by some slip, and that nobody means as one."""
 _OF_PROGRAMS = ("", ".py", ".cpp", ".cc", ".cxx")
 """The ends of files that programs are, or are made of."""
+_MOST = 60
+"""Packages of a workspace that are looked through for an executable."""
 _SPACES = {1: "devel and install spaces", 2: "install spaces"}
 
 
@@ -175,8 +177,17 @@ class _Program(NamedTuple):
 def _program(context: Context, package: str, name: str) -> _Program:
     executables = context.executables
     is_build_target, names = executables.is_build_target(package, name), executables.names(package)
-    is_known = is_build_target or not context.tree.ros.ament or (names and executables.names_are_all(package))
+    has_all = executables.names_are_all(package) and (names or _is_understood(context, package))
+    is_known = is_build_target or not context.tree.ros.ament or has_all
     return _Program(executables.made_of(package, name), is_build_target, names, not is_known)
+
+
+def _is_understood(context: Context, package: str) -> bool:
+    """Whether it is a package of the workspace of which the build files say all that it has, be that nothing."""
+    known = context.environment.packages.get(package)
+    if known is None or context.environment.is_installed(known):
+        return False
+    return known.build_type == "ament_python" or cmake_build(context.disk, known).complete
 
 
 def _is_of_workspace(context: Context, package: str) -> bool:
@@ -185,14 +196,18 @@ def _is_of_workspace(context: Context, package: str) -> bool:
 
 
 def _other_package(context: Context, executables: ExecutableNames, node: LaunchNode) -> str | None:
-    """A package that has the executable: one that another node of the launch is of, or that this one depends on.
-
-    Not any one of the workspace: each that is asked for the first time is walked through.
-    """
+    """A package that has the executable: one that another node of the launch is of, or that this one depends on; else
+    the only one of the workspace."""
     packages = context.environment.packages
     wanted = {other.package for other in context.tree.nodes} | packages[node.package].dependencies
     own = {name for name in wanted - {node.package} if name in packages and _is_own(context, packages[name])}
-    return next((name for name in sorted(own) if node.executable in executables.names(name)), None)
+    near = next((name for name in sorted(own) if node.executable in executables.names(name)), None)
+    if near is not None:
+        return near
+    # Each that is asked for the first time is walked through.
+    others = [each.name for each in context.environment.own_packages if each.name != node.package]
+    found = [name for name in others[:_MOST] if node.executable in executables.names(name)]
+    return found[0] if len(found) == 1 else None
 
 
 def _not_installed(context: Context, package: str, name: str) -> str | None:
