@@ -325,8 +325,13 @@ def test_what_an_include_passes_that_nobody_can_read(tmp_path: Path) -> None:
           <arg name="maps" default="$(find-pkg-share arm)/maps"/>
           <include file="$(find-pkg-share not_here)/launch/a.launch.xml">
             <arg name="map" value="$(var maps)/hal.yaml"/>
+            <arg name="params" value="$(find-pkg-share arm)/maps/room.yaml"/>
             <arg name="there" value="$(var maps)/hall.yaml"/>
+            <arg name="other" value="$(find-pkg-share nor_this)/maps/hall.yaml"/>
             <arg name="log_file" value="$(var maps)/a.txt"/>
+          </include>
+          <include file="$(find-pkg-share arm)/launch/$(env ROBOT nothing).launch.xml">
+            <arg name="params" value="$(find-pkg-share arm)/maps/shed.yaml"/>
           </include>
         </launch>
 """,
@@ -340,5 +345,8 @@ def test_what_an_include_passes_that_nobody_can_read(tmp_path: Path) -> None:
             "warning",
             "file 'arm/maps/hal.yaml' in argument 'map' of an include does not exist; did you mean "
             "'arm/maps/hall.yaml'?",
-        )
+        ),
+        ("warning", "file 'arm/maps/room.yaml' in argument 'params' of an include does not exist"),
+        ("warning", "file 'arm/maps/shed.yaml' in argument 'params' of an include does not exist"),
     ]
+    assert [f.message for f in found if f.rule == "PKG001" and "nor_this" in f.message] == []

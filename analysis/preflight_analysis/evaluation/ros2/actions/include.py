@@ -26,14 +26,16 @@ from preflight_analysis.evaluation.tree import Include, Use
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.configurations import IMPLICIT, Names, configurations_of, names_in_code
-from preflight_analysis.launch.model import Action, LaunchFile, Value
+from preflight_analysis.launch.model import Action, LaunchFile, Substitution, Value
 from preflight_analysis.launch.read import read_launch
+from preflight_analysis.launch.references import first_word
 from preflight_analysis.launch.schema import Attribute
 from preflight_analysis.launch.substitutions_ros2 import nested
 
 _FILLED_IN = re.compile(r"@[A-Za-z_]\w*@")
 
-_OF_ARGUMENTS = frozenset({"var"})
+_OF_ARGUMENTS = frozenset({"var", "dirname", "path-join"})
+_OF_PACKAGE = "find-pkg-share"
 
 
 def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
@@ -139,15 +141,22 @@ def _passed(performer: Performer, action: Action) -> list[tuple[str, Action]]:
 
 
 def _not_read(performer: Performer, passed: list[tuple[str, Action]]) -> dict[str, str | None]:
-    """Arguments of a file that is not read: of their values those are performed that need nothing but arguments."""
+    """Arguments of a file that is not read: of their values those are performed that need nothing but arguments and
+    packages that are here."""
     given: dict[str, str | None] = {}
     for name, child in passed:
         value = child.value("value")
-        plain = value is not None and all(part.command in _OF_ARGUMENTS for part in nested(value.parts))
+        plain = value is not None and all(_is_plain(performer, part) for part in nested(value.parts))
         result = performer.value(value) if value is not None and plain else None
         given[name] = result.text if result is not None and result.known else None
         _note(performer, child, name, given[name])
     return given
+
+
+def _is_plain(performer: Performer, part: Substitution) -> bool:
+    if part.command == _OF_PACKAGE:
+        return first_word(part)[0] in performer.state.environment.packages
+    return part.command in _OF_ARGUMENTS
 
 
 def _note(performer: Performer, child: Action, name: str, value: str | None) -> None:
