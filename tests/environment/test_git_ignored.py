@@ -39,6 +39,14 @@ def test_a_file_that_is_kept(patterns: str, path: str) -> None:
     assert not is_ignored(disk_with({"/w/.gitignore": patterns}), path)
 
 
+@pytest.mark.parametrize(
+    ("patterns", "is_left_out"),
+    [("/p/maps/*", True), ("p/maps/**", True), ("maps/", True), ("maps", True), ("maps/*.pgm", False)],
+)
+def test_a_folder_of_which_all_is_left_out(patterns: str, is_left_out: bool) -> None:
+    assert is_ignored(disk_with({"/w/.gitignore": patterns}), "/w/p/maps", as_folder=True) == is_left_out
+
+
 def test_the_nearest_file_that_speaks_of_it_counts_and_nothing_above_the_repository(tmp_path: Path) -> None:
     kept = {"/w/.gitignore": "*.urdf", "/w/p/.gitignore": "!robot.urdf"}
     assert not is_ignored(disk_with(kept), "/w/p/robot.urdf")

@@ -107,6 +107,12 @@ def test_nothing_of_catkin(tmp_path: Path, lists: str) -> None:
     assert said(tmp_path, {**CATKIN, "CMakeLists.txt": lists}, "PKG012") == []
 
 
+def test_a_folder_of_which_git_keeps_nothing(tmp_path: Path) -> None:
+    lists = LISTS.replace("DIRECTORY launch", "DIRECTORY launch maps")
+    (text,) = said(tmp_path, {**CMAKE, "CMakeLists.txt": lists, ".gitignore": "/maps/*\n"}, "PKG012")
+    assert text.partition(" ")[2] == f"info CMakeLists.txt {MISSING.format('maps')}"
+
+
 def test_what_the_build_may_make(tmp_path: Path) -> None:
     lists = LISTS.replace(
         "install(DIR", "add_custom_command(OUTPUT maps/a.pgm)\ninstall(DIRECTORY maps DESTINATION b)\ninstall(DIR"

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.rules.registry import found_in_description
+from preflight_analysis.workspace.sources import Sources
 from support.check import check
 from support.descriptions import said, xacro
+from support.packaging import lay_out
+from support.unbuilt_packages import manifest
 
 WHEEL = '<xacro:macro name="wheel" params="prefix radius:=1 *origin"/>'
 LEG = '<xacro:macro name="leg" params="prefix"/>'
@@ -47,6 +54,18 @@ def test_what_does_not_fit(text: str, expected: str) -> None:
 )
 def test_what_fits_or_may(text: str) -> None:
     assert said({"r.xacro": xacro(text)}, "URD012") == []
+
+
+@pytest.mark.parametrize(("meant", "severity"), [("indigo", "info"), ("noetic", "warning")])
+def test_what_an_older_xacro_takes(tmp_path: Path, meant: str, severity: str) -> None:
+    path = (
+        lay_out(tmp_path, {"package.xml": manifest("arm", "catkin"), "r.xacro": xacro(f'{LEG}<leg prefix="l"/>')})
+        / "r.xacro"
+    )
+    (tmp_path / "README.md").write_text(f"Install ros-{meant}-desktop.\n")
+    environment = detect_environment(str(tmp_path), {"ROS_DISTRO": "noetic"}, root=str(tmp_path / "nothing"))
+    (found,) = found_in_description(Sources(), environment, str(path))
+    assert (found.rule, found.severity) == ("URD012", severity)
 
 
 @pytest.mark.silent

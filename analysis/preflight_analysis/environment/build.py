@@ -62,6 +62,7 @@ class Installed:
     """Whether it need not be there."""
     runs: bool = False
     """Whether it may be executed once it is installed."""
+    is_folder: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -420,7 +420,7 @@ class _Lists:
             # A folder with a slash at its end stands for what is in it.
             name = "" if whole and word.endswith("/") else renamed or os.path.basename(path)
             optional, may_run = "OPTIONAL" in words, runs or not _RUNS.isdisjoint(words)
-            self._installed.append(Installed(path, destination, name, self._said, optional, may_run))
+            self._installed.append(Installed(path, destination, name, self._said, optional, may_run, whole))
 
     def _programs_of(self, words: Sequence[str], folder: str, where: str) -> None:
         """The programs among the files, or below the folders, that are installed at `where` or below: `ros2 run` looks

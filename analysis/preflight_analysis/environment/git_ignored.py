@@ -17,8 +17,14 @@ _NAME = ".gitignore"
 _MOST_LINES = 2000
 
 
-def is_ignored(disk: Disk, path: str) -> bool:
-    """Whether the nearest `.gitignore` that speaks of a path, or of a folder that it is in, excludes it."""
+_ANYTHING = "\0"
+"""A name that wildcards alone fit."""
+
+
+def is_ignored(disk: Disk, path: str, *, as_folder: bool = False) -> bool:
+    """Whether the nearest `.gitignore` that speaks of a path, or of a folder that it is in, excludes it; `as_folder`,
+    whether all that it may hold is excluded: git has no empty folders."""
+    path = os.path.join(path, _ANYTHING) if as_folder else path
     folder = os.path.dirname(path)
     while folder != os.path.dirname(folder):
         said = _said(_patterns(disk.db, os.path.join(folder, _NAME)), os.path.relpath(path, folder).split(os.sep))

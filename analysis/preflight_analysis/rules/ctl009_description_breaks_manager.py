@@ -47,7 +47,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"gazebo_ros2_control cannot pass on a description with {sign} in it: '{line}'",
             place or robot.param.place,
             subject=Subject("text", line),
-            doubts=otherwise_in(context, _NOT_AFFECTED),
+            doubts=otherwise_in(context.environment, _NOT_AFFECTED),
             related=() if place is None else include_chain(robot.param.origin),
         )
 

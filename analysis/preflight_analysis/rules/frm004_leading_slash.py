@@ -60,7 +60,7 @@ def _of_costmaps(rule: Rule, context: Context) -> Iterator[Finding]:
             subject=Subject("frame", written),
             doubts=(
                 *doubts(OTHER_VERSION=asked is None, NOT_ANALYSED=names.parent(above)),
-                *otherwise_in(context, BEFORE_MELODIC),
+                *otherwise_in(context.environment, BEFORE_MELODIC),
             ),
             related=include_chain(param.origin),
             fixes=rename(context, place, written, written.lstrip("/")),
@@ -127,7 +127,7 @@ def _of_uses(rule: Rule, context: Context) -> Iterator[Finding]:
             subject=Subject("frame", use.written),
             doubts=(
                 *doubts(ASSUMED=not is_sure, OTHER_VERSION=asked is None, NOT_ANALYSED=name if not use.sure else ""),
-                *(otherwise_in(context, BEFORE_MELODIC) if of_costmap else ()),
+                *(otherwise_in(context.environment, BEFORE_MELODIC) if of_costmap else ()),
             ),
             related=include_chain(use.node.origin) if use.param is None else (),
             fixes=rename(context, place, use.written, use.frame) if use.param is not None else (),

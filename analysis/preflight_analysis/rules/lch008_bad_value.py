@@ -41,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message += f"; set argument {quoted(empty)}" if empty else did_you_mean(near)
         lack = lack_of_asked(context, problem.location.file) if not bad.value else None
         message += f"; environment variable '{lack.name}' is not set" if lack is not None else ""
-        python = otherwise_in(context, BEFORE_NOETIC) if _may_be_divided(context, bad) else ()
+        python = otherwise_in(context.environment, BEFORE_NOETIC) if _may_be_divided(context, bad) else ()
         yield problem_claim(
             rule,
             problem,

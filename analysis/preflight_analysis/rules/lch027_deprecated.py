@@ -46,7 +46,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 place = context.location(path, span)
                 message = "'--inorder' has no effect: xacro processes in order since ROS Melodic"
                 fixes = replacement(context, place, "", "Remove --inorder")
-                why = otherwise_in(context, BEFORE_MELODIC)
+                why = otherwise_in(context.environment, BEFORE_MELODIC)
                 yield rule.claim(message, place, subject=Subject("command", "--inorder"), doubts=why, fixes=fixes)
 
 
@@ -79,7 +79,7 @@ def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
                 effect="stops-node" if each.removed else None,
                 doubts=(
                     *doubts(UNSEEN=each.removed and not has_ros(context)),
-                    *otherwise_in(context, each.still_in),
+                    *otherwise_in(context.environment, each.still_in),
                 ),
                 related=include_chain(node.origin),
                 fixes=_fixes(context, each, node),
@@ -105,7 +105,7 @@ def _commands(rule: Rule, context: Context) -> Iterator[Finding]:
                     effect="stops-launch" if each.removed else None,
                     doubts=(
                         *doubts(UNSEEN=each.removed and not has_ros(context)),
-                        *otherwise_in(context, each.still_in),
+                        *otherwise_in(context.environment, each.still_in),
                     ),
                     fixes=rename(context, place, found[3], each.instead_executable) if each.instead_executable else (),
                 )
@@ -147,7 +147,7 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
                 param.place,
                 subject=Subject("parameter", param.name),
                 effect="no-effect" if param.value is True else None,
-                doubts=otherwise_in(context, BEFORE_NOETIC),
+                doubts=otherwise_in(context.environment, BEFORE_NOETIC),
                 related=include_chain(param.origin),
             )
 

@@ -148,7 +148,7 @@ def _keyword(rule: Rule, context: Context, path: str, wrong: UnknownKeyword) -> 
         place,
         subject=Subject("keyword", wrong.name),
         kind="invalid" if wrong.near is None else "near",
-        doubts=otherwise_in(context, BEFORE_GALACTIC) if wrong.name in _OLD_KEYWORDS else (),
+        doubts=otherwise_in(context.environment, BEFORE_GALACTIC) if wrong.name in _OLD_KEYWORDS else (),
         candidates=(wrong.near,),
         fixes=fixes,
         stops_launch=True,

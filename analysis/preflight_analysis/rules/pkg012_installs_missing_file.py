@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
@@ -35,7 +36,8 @@ _UNRESOLVED = re.compile(r"[$<>*?]")
 def of_package(rule: Rule, disk: Disk, environment: Environment, package: Package) -> Iterator[Finding]:
     """What a package installs that is not there."""
     said = set[str]()
-    for path, written, place, made, at_once in _installed(disk, package):
+    for missing in _installed(disk, package):
+        path, written, place = missing.path, missing.written, missing.place
         if path in said or _UNRESOLVED.search(path) or not path.startswith(f"{package.share}{os.sep}"):
             continue
         said.add(path)
@@ -47,33 +49,43 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
             continue
         if left_submodule(disk, path) is not None:
             continue
-        ignored = is_ignored(disk, path)
+        ignored = is_ignored(disk, path, as_folder=missing.is_folder)
         near = None if ignored else nearest(os.path.basename(path), disk.names(os.path.dirname(path)))
         if near is None and not ignored and os.path.dirname(below) == "resource":
             near = next((each for each in disk.names(os.path.dirname(path)) if not each.startswith(".")), None)
         meant = os.path.join(os.path.dirname(below), near) if near is not None else None
-        fails = "the package does not build" if at_once else "`catkin_make install` fails"
+        fails = "the package does not build" if missing.at_once else "`catkin_make install` fails"
         yield rule.claim(
             f"{build_file} installs '{written}', which does not exist: {fails}{did_you_mean(meant)}",
             place,
             subject=Subject("file", path),
-            effect=None if at_once else "misbehaves",
+            effect=None if missing.at_once else "misbehaves",
             kind="absent" if meant is None else "near",
-            doubts=doubts(MADE_ELSEWHERE=ignored, MADE_BY_BUILD=made),
+            doubts=doubts(MADE_ELSEWHERE=ignored, MADE_BY_BUILD=missing.made),
             candidates=(meant,),
         )
 
 
-def _installed(disk: Disk, package: Package) -> Iterator[tuple[str, str, Location, bool, bool]]:
-    """The path of each file or folder that cannot be installed as it is, how it is written and where, whether the build
-    may make it, and whether the build fails already, not the installation alone, which ROS 1 seldom needs."""
+class _Missing(NamedTuple):
+    """A file or folder that cannot be installed as it is: how it is written, and where. `made`: the build may make it;
+    `at_once`: the build fails already, not the installation alone, which ROS 1 seldom needs."""
+
+    path: str
+    written: str
+    place: Location
+    made: bool
+    at_once: bool
+    is_folder: bool = False
+
+
+def _installed(disk: Disk, package: Package) -> Iterator[_Missing]:
     if package.build_type == "ament_python":
         build = python_build(disk, package)
         document = disk.text(build.file) if build.file is not None else None
         for each in build.called.copied if build.called is not None and isinstance(document, Document) else ():
             path = os.path.normpath(os.path.join(package.share, each.source))
             if not disk.is_file(path) and isinstance(document, Document):
-                yield path, each.source, line_of(document, each.line), False, True
+                yield _Missing(path, each.source, line_of(document, each.line), made=False, at_once=True)
     elif package.build_type in ("ament_cmake", "catkin"):
         for item in cmake_build(disk, package).installed:
             said = item.said
@@ -84,7 +96,7 @@ def _installed(disk: Disk, package: Package) -> Iterator[tuple[str, str, Locatio
             if place is not None:
                 text = disk.content(said.file) or ""
                 at_once = package.is_ament or text[said.at :].lower().startswith(_AT_ONCE)
-                yield item.source, written, place, _MAKES.search(text) is not None, at_once
+                yield _Missing(item.source, written, place, _MAKES.search(text) is not None, at_once, item.is_folder)
 
 
 RULE = Rule(

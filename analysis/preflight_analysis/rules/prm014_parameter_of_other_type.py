@@ -63,7 +63,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             template = doubts(NOT_SET=f"the value of '{param.name}'" if is_template(str(param.value)) else "")
             fixes = _fixes(context, param, passed, wanted, in_file=place.file in files)
             # Before, the node logged it and went on: its clock takes it, after it is declared without a type.
-            clock = otherwise_in(context, BEFORE_GALACTIC) if param.name == "use_sim_time" else ()
+            clock = otherwise_in(context.environment, BEFORE_GALACTIC) if param.name == "use_sim_time" else ()
             yield replace(refusal(rule, node, param, use, message, (*template, *clock)), fixes=fixes)
 
 

@@ -12,6 +12,7 @@ from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.generation import ros
 from preflight_analysis.model.descriptions import defined_for, doubts_of
+from preflight_analysis.model.distributions import BEFORE_NOETIC, otherwise_in
 from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.model.problems import quoted, rename_in
 from preflight_analysis.robot.xacro import XACRO, Call, Macro, XacroFile, xacro_file
@@ -19,8 +20,6 @@ from preflight_analysis.rules.further_reading import XACRO as XACRO_PAGE
 from preflight_analysis.rules.packages import check_nothing
 from preflight_analysis.rules.rule import Rule
 
-_BEFORE_NOETIC = frozenset(("groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic"))
-"""Distributions whose xacro takes a call without its prefix, and says that Noetic's does not."""
 _WHERE = frozenset(("robot", f"{XACRO}macro", f"{XACRO}if", f"{XACRO}unless"))
 """What has links and joints in it, and no elements of plugins that are called as they like."""
 _OF_ROBOT = ("link", "joint", "visual", "collision", "inertial", "geometry")
@@ -38,8 +37,12 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
     macros = defined_for(disk.db, environment, path).macros
     package = package_around(environment, path)
     generation = package.generation if package is not None else environment.generation
-    old = environment.distro in _BEFORE_NOETIC
-    of_version = doubts(OTHER_VERSION=old or (ros(generation).has_master and environment.distro != "noetic"))
+    old = environment.distro in BEFORE_NOETIC
+    of_version = (
+        *doubts(OTHER_VERSION=old or (ros(generation).has_master and environment.distro != "noetic")),
+        *otherwise_in(environment, BEFORE_NOETIC),
+    )
+    # The xacro of these takes a call without its prefix, and says that Noetic's does not.
     for call in file.calls:
         definitions = macros.get(call.name, ())
         if not call.prefixed and not definitions and _is_call_of_unknown(call):
@@ -141,7 +144,7 @@ RULE = Rule(
     effect="breaks",
     kind="absent",
     always=(Reason.NOT_GIVEN,),
-    sometimes=("no-effect", Reason.OTHER_VERSION, Reason.EXPLAINED),
+    sometimes=("no-effect", Reason.OTHER_VERSION, Reason.MEANT_FOR_OTHER, Reason.EXPLAINED),
     what="Checks for the call of a xacro macro that lacks a parameter or block, or has a parameter that the macro does "
     "not know. An element that has the name and the parameters of a macro needs the prefix `xacro:`.",
     why="xacro stops with an error, and the robot has no description. An element without the prefix stays as it is, so "
