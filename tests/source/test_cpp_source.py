@@ -188,6 +188,24 @@ def test_computed_names(harness: Harness) -> None:
     ]
 
 
+def test_a_macro_that_the_build_decides(harness: Harness) -> None:
+    body = """
+        ros::NodeHandle nh;
+        nh.advertise<std_msgs::String>(NAME, 1);
+        nh.advertise<std_msgs::String>(SAME, 1);
+    """
+    before = """
+        #ifdef OLD
+        #define NAME "GoHome"
+        #define SAME "state"
+        #else
+        #define NAME "go_home"
+        #define SAME  "state"
+        #endif
+    """
+    assert harness.topics(body, before) == ["state"]
+
+
 def test_a_text_that_grows_piece_by_piece(harness: Harness) -> None:
     body = """
         ros::NodeHandle nh;

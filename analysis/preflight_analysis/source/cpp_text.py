@@ -94,6 +94,7 @@ class FileText:
     path: str
     includes: list[str] = field(default_factory=list)
     defines: dict[str, str] = field(default_factory=dict)
+    """Macros, and what each stands for; "" also for one that is defined as this and as that: the build decides."""
     classes: dict[Path, ClassText] = field(default_factory=dict)
     functions: dict[Path, list[FunctionText]] = field(default_factory=dict)
     aliases: dict[Path, tuple[Node, tuple[str, ...]]] = field(default_factory=dict)
@@ -262,7 +263,7 @@ def _declaration(node: Node, scope: Path, template: tuple[str, ...], file: FileT
         case "preproc_def":
             name = text_of(node.child_by_field_name("name"))
             value = text_of(node.child_by_field_name("value")).strip()
-            file.defines.setdefault(name, value)
+            file.defines[name] = value if file.defines.get(name, value) == value else ""
             if _TYPE_NAME.fullmatch(value):  # of a base class, for instance; of several the first counts
                 type_ = parse_type(value)
                 if type_ is not None:
