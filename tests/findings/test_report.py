@@ -313,6 +313,17 @@ def test_many_findings_that_are_alike_are_one() -> None:
     assert "6 parameters are not declared" in text and "/pump.yaml:9:5: 'last': the same here" in text
 
 
+def test_names_that_one_file_lacks_are_one_finding_wherever_they_are() -> None:
+    def lacking(name: str, file: str, mended_in: str = "/p/package.xml") -> Finding:
+        return replace(finding("info", file, 1, f"'{name}' lacks"), alike=Alike(say("names lack"), name, mended_in))
+
+    found = [lacking("a", "/p/1"), lacking("b", "/p/2"), lacking("a", "/p/3"), lacking("a", "/q/1", "/q/package.xml")]
+    several, single = by_cause(found)
+    assert several.message == "2 names lack: 'a', 'b'"
+    assert [each.location.file for each in several.related] == ["/p/2", "/p/3"]
+    assert single.message == "'a' lacks"
+
+
 def test_programs_get_each_of_them() -> None:
     assert len(to_json(report_of(MANY))["findings"]) == 7
 

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.report import by_cause
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check
-from support.packaging import PYTHON, said
+from support.packaging import PYTHON, findings, said
 
 MANIFEST = """
         //- /robot/package.xml
@@ -33,7 +34,7 @@ def test_a_package_that_the_manifest_does_not_name() -> None:
           <node pkg="camera" type="driver" name="driver"/>
           <node pkg="robot" type="base" name="base"/>
           <node pkg="rviz" type="rviz" name="rviz" args="$(find rviz)"/>
-                     ^^^^ info[PKG004] package 'rviz' is not a dependency in package.xml of 'robot'
+                     ^^^^ hint[PKG004] package 'rviz' is not a dependency in package.xml of 'robot'
         </launch>"""
         + MANIFEST
     )
@@ -54,7 +55,7 @@ def test_the_first_dependency_of_a_manifest(file: str, head: str, line: str) -> 
     text = f"""
         //- {file}
         <launch><param name="a" value="$(find rviz)"/></launch>
-                                              ^^^^ info[PKG004]
+                                              ^^^^ hint[PKG004]
         //- /robot/package.xml
         {head}
           <name>robot</name>
@@ -82,11 +83,11 @@ def test_paths_packages_and_remaps_as_in_ros1() -> None:
         launch:
           - node:
               pkg: camera
-                   ^^^^^^ info[PKG004] package 'camera' is not a dependency in package.xml of 'p'
+                   ^^^^^^ hint[PKG004] package 'camera' is not a dependency in package.xml of 'p'
               exec: driver
               name: $(find-pkg-share lidar)
                     ^^^^^^^^^^^^^^^^^^^^^^^ error[LCH009]
-                                     ^^^^^ info[PKG004] package 'lidar' is not a dependency in package.xml of 'p'
+                                     ^^^^^ hint[PKG004] package 'lidar' is not a dependency in package.xml of 'p'
               remap:
                 - {from: scan, to: scan}
         //- /p/package.xml
@@ -132,8 +133,8 @@ def generate_launch_description():
 """
     root.write_text(text)
     environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
-    findings = Workspace(environment, Sources()).static(str(root)).findings
-    (found,) = (finding for finding in findings if finding.rule == "PKG004")
+    analysis = Workspace(environment, Sources()).static(str(root))
+    (found,) = (finding for finding in analysis.findings if finding.rule == "PKG004")
     assert "'camera'" in found.message
     assert text[found.location.span.start : found.location.span.end] == "camera"
 
@@ -150,6 +151,35 @@ def test_what_modules_import(tmp_path: Path) -> None:
     assert said(tmp_path, files, "PKG004") == [
         "arm/driver.py:2 info package 'std_msgs' is not a dependency in package.xml of 'arm'"
     ]
+
+
+USES = '<launch><node pkg="rviz2" exec="rviz2"/><node pkg="{}" exec="relay"/></launch>'
+OTHER = "<package><name>{}</name><depend>{}</depend></package>"
+
+
+@pytest.mark.parametrize(
+    ("used", "other", "expected"),
+    [
+        ("topic_tools", ("hand", "camera"), ["info rviz2", "info topic_tools"]),
+        ("topic_tools", ("hand", "topic_tools"), ["info rviz2", "hint topic_tools"]),
+        ("hand", ("hand", "rviz2"), ["hint rviz2", "hint hand"]),
+    ],
+)
+def test_what_the_workspace_brings_all_the_same(
+    tmp_path: Path, used: str, other: tuple[str, str], expected: list[str]
+) -> None:
+    (tmp_path / "src" / "hand").mkdir(parents=True)
+    (tmp_path / "src" / "hand" / "package.xml").write_text(OTHER.format(*other))
+    found = findings(tmp_path, {**PYTHON, "launch/arm.launch.xml": USES.format(used)}, "PKG004")
+    assert [f"{each.severity} {each.subject.name}" for each in found] == expected
+
+
+def test_what_one_manifest_lacks_is_reported_once(tmp_path: Path) -> None:
+    files = {**PYTHON, "arm/driver.py": IMPORTS, "launch/arm.launch.xml": USES.format("topic_tools")}
+    (report,) = by_cause(findings(tmp_path, files, "PKG004"))
+    assert report.message == (
+        "3 packages are not dependencies in package.xml of 'arm': 'std_msgs', 'rviz2', 'topic_tools'"
+    )
 
 
 @pytest.mark.silent

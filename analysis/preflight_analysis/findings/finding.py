@@ -51,10 +51,12 @@ class EndpointRef(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class Alike:
     """What many findings of one cause have in common. `what` goes on from their number (`parameters are not declared by
-    /n`), `name` is what this one is about."""
+    /n`), `name` is what this one is about. `mended_in` is the file that lacks all the names, where that is not the one
+    that the finding is in: a few of them are of one cause already, and wherever they are."""
 
     what: Text
     name: str
+    mended_in: str = ""
 
 
 @dataclass(frozen=True, slots=True)

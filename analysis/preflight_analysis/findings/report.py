@@ -6,7 +6,7 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from typing import Any
+from typing import Any, NamedTuple
 from urllib.parse import quote
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -35,6 +35,8 @@ _MOST_ALIKE = 5
 _SAME = "the same here"
 _MANY = 4
 """So many findings that are alike in a file are one."""
+_MENDED_TOGETHER = 2
+"""So many are one where another file is to be mended."""
 _MOST_NAMES = 5
 """That such a one has in its message."""
 _FEW = 10
@@ -256,7 +258,15 @@ def _counted(counts: Mapping[Severity, int]) -> str:
     return ", ".join(_plural(counts[each], each) for each in reversed(SEVERITIES) if counts.get(each))
 
 
-_Cause = tuple[str, Severity, Text | tuple[str, Confidence, Text], str]
+class _Cause(NamedTuple):
+    """What findings have in common that are shown as one: `where` is a file, or "" for wherever they are."""
+
+    rule: str
+    severity: Severity
+    said: Text | tuple[str, Confidence, Text]
+    where: str
+    least: int = 1
+    """So many names of those that are alike are shown as one."""
 
 
 def _causes(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Sequence[Finding]]:
@@ -265,14 +275,14 @@ def _causes(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Sequ
     findings = [*findings]
     found: dict[_Cause, list[Finding]] = {}
     pointing: dict[tuple[str, Location, Location], list[Finding]] = {}
-    many = Counter(_alike(finding) for finding in findings if alike and finding.alike is not None)
+    many = _many_alike(findings) if alike else frozenset()
     for finding in findings:
         cause = _alike(finding)
-        if finding.alike is not None and many[cause] >= _MANY:
+        if cause in many:
             found.setdefault(cause, []).append(finding)
             continue
         where = "" if finding.subject.name else finding.location.file
-        key = finding.rule, finding.severity, finding.text.cause, where
+        key = _Cause(finding.rule, finding.severity, finding.text.cause, where)
         same = found.get(key)
         to = [(related.location, finding.location) for related in finding.related]
         back = (pointing.get((finding.rule, there, here)) for there, here in to)
@@ -283,20 +293,30 @@ def _causes(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Sequ
         for there, here in to:
             pointing.setdefault((finding.rule, here, there), group)
     for cause, group in found.items():
-        yield _as_one(group) if many[cause] >= _MANY else group
+        yield _as_one(group) if cause in many else group
+
+
+def _many_alike(findings: Iterable[Finding]) -> frozenset[_Cause]:
+    """The causes for which there are so many names that one finding has them all."""
+    names: dict[_Cause, set[str]] = {}
+    for finding in findings:
+        if finding.alike is not None:
+            names.setdefault(_alike(finding), set()).add(finding.alike.name)
+    return frozenset(cause for cause, of in names.items() if len(of) >= cause.least)
 
 
 def _alike(finding: Finding) -> _Cause:
-    what = finding.alike.what if finding.alike is not None else Text("")
-    return finding.rule, finding.severity, (finding.condition, finding.confidence, what), finding.location.file
+    what, mended_in = (finding.alike.what, finding.alike.mended_in) if finding.alike is not None else (Text(""), "")
+    said, least = (finding.condition, finding.confidence, what), _MENDED_TOGETHER if mended_in else _MANY
+    return _Cause(finding.rule, finding.severity, said, mended_in or finding.location.file, least)
 
 
 def _as_one(group: Sequence[Finding]) -> Sequence[Finding]:
     """Findings that are alike, the first of which speaks of all."""
     first, alike = group[0], [each.alike for each in group if each.alike is not None]
-    names = [f"'{each.name}'" for each in alike]
+    names = [*dict.fromkeys(f"'{each.name}'" for each in alike)]
     more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
-    message = f"{len(group)} {alike[0].what}: {', '.join(names[:_MOST_NAMES])}{more}"
+    message = f"{len(names)} {alike[0].what}: {', '.join(names[:_MOST_NAMES])}{more}"
     return (replace(first, message=clipped(message)), *group[1:])
 
 

@@ -1,22 +1,27 @@
 """PKG004: a package that a launch file needs and the package.xml above it does not name."""
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
+from itertools import chain
 
 from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.environment.packages import MANIFEST
-from preflight_analysis.findings.claim import Subject
-from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Alike, Finding, Fix
+from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.derived import derived
+from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.names_of_launch_files import packages_of_launch_file
@@ -56,12 +61,9 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
             said.add(top)
             line = document.lines.line_span(number)
             at = document.text.find(top, line.start)
-            yield rule.claim(
-                f"package '{top}' is not a dependency in {os.path.basename(package.manifest)} of '{package.name}'",
-                document.location(Span(at, at + len(top)) if at >= 0 else line),
-                subject=Subject("package", top),
-                fixes=_fixes(manifest, package, top, path),
-            )
+            place = document.location(Span(at, at + len(top)) if at >= 0 else line)
+            is_brought = top in _brought(disk.db, environment)
+            yield _claim(rule, package, top, place, _fixes(manifest, package, top, path), is_brought=is_brought)
 
 
 def _of_launch_files(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -73,25 +75,52 @@ def _of_launch_files(rule: Rule, context: Context) -> Iterator[Finding]:
             if owner.manifest not in manifests:
                 manifests[owner.manifest] = context.disk.text(owner.manifest)
             manifest = manifests[owner.manifest]
-            yield from context.one(_findings, launch_file.path, rule, launch_file, owner, missing, manifest)
+            brought = _brought(context.disk.db, context.environment)
+            yield from context.one(_findings, launch_file.path, rule, launch_file, brought, owner, missing, manifest)
 
 
 def _findings(
     rule: Rule,
     launch_file: LaunchFile,
+    brought: AbstractSet[str],
     owner: Package,
     missing: tuple[tuple[str, Span], ...],
     manifest: Document | Unreadable,
 ) -> tuple[Finding, ...]:
     return tuple(
-        rule.claim(
-            f"package '{name}' is not a dependency in {os.path.basename(owner.manifest)} of '{owner.name}'",
+        _claim(
+            rule,
+            owner,
+            name,
             launch_file.document.location(span),
-            subject=Subject("package", name),
-            fixes=_fixes(manifest, owner, name, launch_file.path),
+            _fixes(manifest, owner, name, launch_file.path),
+            is_brought=name in brought,
         )
         for name, span in missing
     )
+
+
+def _claim(
+    rule: Rule, owner: Package, name: str, place: Location, fixes: Iterable[Fix], *, is_brought: bool
+) -> Finding:
+    manifest = os.path.basename(owner.manifest)
+    many = say("packages are not dependencies in {manifest} of '{owner}'", manifest=manifest, owner=owner.name)
+    return rule.claim(
+        f"package '{name}' is not a dependency in {manifest} of '{owner.name}'",
+        place,
+        subject=Subject("package", name),
+        doubts=doubts(NO_DIFFERENCE=is_brought),
+        fixes=fixes,
+        alike=Alike(many, name, owner.manifest),
+    )
+
+
+@query
+def _brought(db: Database, environment: Environment) -> frozenset[str]:
+    """The packages that are there all the same where a workspace is built and `rosdep install --from-paths src` is run:
+    its own, and those that any of them names."""
+    own = [package for package in environment.packages.values() if not environment.is_installed(package)]
+    return frozenset(chain((each.name for each in own), *(each.dependencies for each in own)))
 
 
 def _missing(launch_file: LaunchFile, environment: Environment) -> tuple[Package, tuple[tuple[str, Span], ...]] | None:
@@ -139,9 +168,11 @@ RULE = Rule(
     name="package-not-in-manifest",
     effect="note",
     kind="absent",
+    sometimes=(Reason.NO_DIFFERENCE,),
     what="Checks for a package that a launch file uses, or in ROS 2 a Python module imports, and that the "
-    "`package.xml` of its own package does not name as any kind of dependency. Each package is reported once in a "
-    "launch file, and once for all modules.",
+    "`package.xml` of its own package does not name as any kind of dependency. An editor shows each package once in a "
+    "launch file, and once for all modules; `check` has one finding for each `package.xml`. It is a hint where the "
+    "workspace has the package, or another of its packages names it.",
     why="`rosdep` and binary packages install only declared dependencies. The launch file fails where no other "
     "package needs the missing one. In ROS 1 `roslaunch_add_file_check` reports the same.",
     example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',
