@@ -18,7 +18,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, constructed, parse_yaml, span_of
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, YamlDocument, constructed, parse_yaml, span_of
 from preflight_analysis.evaluation.ros2 import rcl_yaml
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.slips import edits
@@ -32,6 +32,7 @@ _MAY_BE_ALIAS = re.compile(r"(?:^|[\s\[{,:-])\*[\w.-]+\s*(?:$|[\]},#:])", re.MUL
 _SHORT_MARK = re.compile(r"ros_+param(?:eter)?s?")
 _SLIP = 2
 """Letters by which a key may differ from the mark."""
+_NEXT_DOCUMENT = re.compile(r"^---(?=[ \t]*(?:#|$))", re.MULTILINE)
 _MAX_DEPTH = 40
 _MAX_KEYS = 50_000
 """Of one file; aliases of aliases would otherwise make any number of them."""
@@ -79,7 +80,8 @@ class Section:
 
 @dataclass(frozen=True)
 class ParamFile:
-    """What a parameter file says. `problem` is why it is no YAML, with its place; `unmarked` are keys that lead to
+    """What a parameter file says. `problem` is why it is no YAML for rcl, with its place, `problem_of_launch` why it is
+    none for launch, which reads the files of components and those with substitutions; `unmarked` are keys that lead to
     values without `ros__parameters` above them, which nobody reads; `refused` is YAML for which rcl refuses the file:
     what it is, and where. `flat` are the parameters of a file without any `ros__parameters`, which `launch_ros` gives
     to a component as they stand."""
@@ -91,6 +93,7 @@ class ParamFile:
     flat: tuple[FileParam, ...] = ()
     misspelt: bool = False
     """Whether a key is a slip of `ros__parameters`."""
+    problem_of_launch: tuple[str, Span] | None = None
 
     @property
     def repeated(self) -> Iterator[tuple[FileParam, FileParam]]:
@@ -145,20 +148,26 @@ def read_made_param_file(text: str) -> ParamFile:
 
 
 def _read(text: str) -> ParamFile:
-    parsed = parse_yaml("", text)
-    if parsed.document.problems and "\t" in text:
-        # libyaml, by which rcl reads the file, takes a tab there for a blank (`yaml_parser_scan_to_next_token`).
-        read_by_libyaml = parse_yaml("", _TABS_AT_END.sub(_blanks, text))
-        parsed = parsed if read_by_libyaml.document.problems else read_by_libyaml
-    problems = parsed.document.problems
-    problem = (problems[0].message, problems[0].span) if problems else None
+    parsed = by_launch = parse_yaml("", text)
+    if by_launch.document.problems:
+        # libyaml, by which rcl reads the file, takes a tab there for a blank (`yaml_parser_scan_to_next_token`). rcl
+        # goes on with the next document (`parse_file_events`).
+        by_rcl = parse_yaml("", _TABS_AT_END.sub(_blanks, _NEXT_DOCUMENT.sub("#--", text)))
+        parsed = by_launch if by_rcl.document.problems else by_rcl
+    problem = _first_problem(parsed)
     reader = _Reader()
     if isinstance(parsed.node, yaml.MappingNode):
         reader.nodes(parsed.node, (), (), 0)
     reader.refused += _aliases(text) if reader.sections and problem is None else ()
     flat = _Reader().params(parsed.node) if not reader.sections and isinstance(parsed.node, yaml.MappingNode) else ()
     return ParamFile(
-        tuple(reader.sections), problem, tuple(reader.unmarked), tuple(reader.refused), tuple(flat), reader.misspelt
+        tuple(reader.sections),
+        problem,
+        tuple(reader.unmarked),
+        tuple(reader.refused),
+        tuple(flat),
+        reader.misspelt,
+        _first_problem(by_launch),
     )
 
 
@@ -177,6 +186,10 @@ def _emptied(params: yaml.MappingNode) -> Iterator[tuple[str, Span]]:
     for key, value in params.value[:-1]:
         if isinstance(value, yaml.MappingNode) and not value.value and isinstance(key, yaml.ScalarNode):
             yield f"an empty group of parameters before others: '{key.value}'", span_of(key)
+
+
+def _first_problem(parsed: YamlDocument) -> tuple[str, Span] | None:
+    return next(((each.message, each.span) for each in parsed.document.problems), None)
 
 
 def _blanks(found: re.Match[str]) -> str:

@@ -210,10 +210,11 @@ def file_source(
         state.note_unknown(path, "values in it are not known", origin[-1])
     made = state.text_made(path) is not None
     said = read_made_param_file(text) if made or substitute else read_param_file(found)
-    if said.problem is not None:
-        message, span = said.problem
+    fatal = to.composable or substitute
+    problem = said.problem_of_launch if fatal else said.problem
+    if problem is not None:
+        message, span = problem
         at = origin if made else (*origin, found.lines.location(path, span))
-        fatal = to.composable or substitute
         state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
     if not (made or substitute):
