@@ -140,6 +140,13 @@ def test_hyphens_in_a_comment() -> None:
             '<!-- a -->\n<?xml version="1.0"?>\n<robot name="r" xmlns:xacro="x"><!-- <xacro:a/> --></robot>',
             [":2 info file is not well-formed XML: the XML declaration must be the very first thing in the file"],
         ),
+        # https://github.com/abizovnuralem/go2_ros2_sdk: urdfdom takes the <robot> among several.
+        ("r.urdf", '<?xml version="1.0"?>\n<xacro:property name="a"/>\n<robot name="r"><link name="a"/></robot>\n', []),
+        (
+            "r.urdf",
+            '<robot name="r"><link name="a"/></robot>\n<robot name="s"><link></robot>',
+            [":2 warning file is not well-formed XML: another element after the document element"],
+        ),
         ("empty.xacro", "", []),
     ],
 )

@@ -28,6 +28,7 @@ _XACRO = re.compile(r"\{http[^{}]*xacro/?\}")
 """The namespaces that xacro has had, as lxml writes them before a tag (`xacro.XACRO_NS` of ROS 1 and ROS 2)."""
 _EMPTY = Description("")
 _TAKEN_BY_URDFDOM = (etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE, etree.ErrorTypes.ERR_HYPHEN_IN_COMMENT)
+_DECLARATION = re.compile(r"\A\s*<\?xml[^>]*\?>")
 _OF_ROS2_CONTROL = ("hardware", "properties", "joint", "sensor", "gpio", "transmission")
 """What may be in a `<ros2_control>` element (`parse_resource_from_xml` of ros2_control)."""
 _JOINT_TAG = re.compile(r"(?:joint|joint_?name)$", re.IGNORECASE)
@@ -58,11 +59,14 @@ def parse_description(text: str) -> Description:
 
 
 def _as_urdfdom(text: str) -> etree._Element | None:
-    """The root of a text with prefixes that nothing declares, or with `--` in comments: the parser of urdfdom minds
-    neither. None where it has other errors, too."""
+    """The <robot> of a text with prefixes that nothing declares, with `--` in comments, or beside other elements: the
+    parser of urdfdom minds none of it. None where it has other errors, too."""
     parser = _parser(recover=True)
     try:
         root = xml_root(text, parser)
+        if any(each.type == etree.ErrorTypes.ERR_DOCUMENT_END for each in parser.error_log):
+            parser = _parser(recover=True)
+            root = xml_root(f"<all>{_DECLARATION.sub('', text)}</all>", parser).find("robot")
     except etree.XMLSyntaxError:
         return None
     only = all(each.type in _TAKEN_BY_URDFDOM for each in parser.error_log)

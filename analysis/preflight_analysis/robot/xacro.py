@@ -384,8 +384,11 @@ class _Reader:
 
 
 def _is_xacro(root: Element, path: str) -> bool:
-    """Whether xacro reads it: what only declares the prefix may be the text that xacro made."""
-    if not path.endswith(_FINISHED) and any(each.name == "xmlns:xacro" for each in root.attributes):
+    """Whether xacro reads it, which needs the prefix to be declared; what only does that may be the text that xacro
+    made."""
+    if not any(each.name == "xmlns:xacro" for each in root.attributes):
+        return False
+    if not path.endswith(_FINISHED):
         return True
     waiting = [root]
     while waiting:
