@@ -6,6 +6,7 @@ import pytest
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from preflight_analysis.rules.registry import run_rules
 from support.check import analyse, check, findings_of, read_fixture
+from support.packaging import CMAKE, said
 
 
 def test_a_parameter_file_for_another_node() -> None:
@@ -339,6 +340,47 @@ _SHARED_ARGUMENT = """
 _BASE = '<include file="/base.launch.xml"><arg name="params" value="/base.yaml"/></include>'
 _NAV = '<include file="/nav.launch.xml"/>'
 _LET = '<let name="x" value="1"/>'
+
+
+_SHARE = "$(find-pkg-share arm)"
+_PASSED = f'><arg name="params" value="{_SHARE}/config/robot.yaml"/>'
+_OWN_DEFAULT = {
+    **CMAKE,
+    "launch/arm.launch.xml": f"""<launch>
+  <arg name="params" default="{_SHARE}/config/robot.yaml"/>
+  <node pkg="p" exec="base" name="base"><param from="$(var params)"/></node>
+  <include file="{_SHARE}/launch/nav.launch.xml"/>
+</launch>""",
+    "launch/nav.launch.xml": f"""<launch>
+  <arg name="params" default="{_SHARE}/config/nav.yaml"/>
+  <node pkg="p" exec="pilot" name="pilot"><param from="$(var params)"/></node>
+</launch>""",
+    "config/robot.yaml": "base: {ros__parameters: {port: 1}}\n",
+    "config/nav.yaml": "pilot: {ros__parameters: {rate: 1}}\n",
+}
+
+
+def test_a_file_that_the_including_file_declares(tmp_path: Path) -> None:
+    """https://github.com/junyu-code/ros2-slam-nav-stack"""
+    assert said(tmp_path, _OWN_DEFAULT, "PRM011") == [
+        "launch/nav.launch.xml:3 warning no section of this file applies to /pilot; it has sections for '/base'; the "
+        "file is from 'params', which an including file declares, too: the default 'nav.yaml' here has no effect; pass "
+        "that one in the include"
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("file", "old", "new"),
+    [
+        ("config/nav.yaml", "pilot", "rover"),
+        ("launch/arm.launch.xml", "/>\n</launch>", f"{_PASSED}</include>\n</launch>"),
+    ],
+)
+def test_a_file_of_the_including_file_that_is_meant(tmp_path: Path, file: str, old: str, new: str) -> None:
+    changed = {**_OWN_DEFAULT, file: _OWN_DEFAULT[file].replace(old, new)}
+    assert changed != _OWN_DEFAULT
+    assert said(tmp_path, changed, "PRM011") == []
 
 
 def test_a_file_that_another_include_was_passed() -> None:

@@ -18,7 +18,7 @@ _SHOWN = 3
 _OF_OTHERS = "section '{section}' applies to no node that gets this file (only {node}{others})"
 _OF_PROCESS = "section '{section}' applies to no node that gets this file; did you mean '{node}'?"
 _GETS_ANOTHER = "section '{section}' applies to no node: {node} does not get this file"
-_KEPT = "; {leak}; put that one into a group"
+_KEPT = "; {leak}; {advice}"
 _NOT_OF_NODE = "no section of this file applies to {node}; it has sections for {sections}{inferred}"
 
 
@@ -89,13 +89,13 @@ def _about_key(rule: Rule, context: Context, used: FileUse, lost: SectionUse) ->
 
 
 def _about_file(rule: Rule, context: Context, lost: LostFile) -> Finding:
-    used, given, meant, leaked = lost
+    used, given, meant, leaked, _ = lost
     node = given.node
     inferred = "; the name is from its source" if node.name_inferred else ""
     key = meant.section if meant is not None else used.sections[0].section
     text = say(_NOT_OF_NODE, node=node.name, sections=lost.sections, inferred=inferred)
     return rule.claim(
-        text.followed_by(_KEPT, leak=lost.leak) if leaked is not None else text,
+        text.followed_by(_KEPT, leak=lost.leak, advice=lost.advice) if leaked is not None else text,
         given.location,
         subject=Subject("file", used.path),
         kind="absent" if meant is None else "near",
@@ -105,7 +105,11 @@ def _about_file(rule: Rule, context: Context, lost: LostFile) -> Finding:
             Related(
                 "the section" if meant is not None else "its first section", context.location(used.path, key.spans[-1])
             ),
-            *([Related("passed here", leaked.origin[-1])] if leaked is not None else ()),
+            *(
+                [Related("declared here" if lost.default else "passed here", leaked.origin[-1])]
+                if leaked is not None
+                else ()
+            ),
             *include_chain(node.origin),
         ),
         fixes=_rewrite(context, used.path, key, node.name) if meant is not None else (),
@@ -134,7 +138,8 @@ RULE = Rule(
     sometimes=(Reason.ASSUMED, Reason.UNSEEN, Reason.NOT_ANALYSED, Reason.COMPUTED, Reason.INTENDED),
     what="Checks for a parameter file in which no section applies to the node that gets it, and for a key that "
     "matches no node and is close to one. A file that several nodes share may have no section for one of them, unless "
-    "it comes from an argument of another include. A section for a node that gets its parameters elsewhere counts.",
+    "it comes from an argument of another include, or of an including file while its own default fits. A section for "
+    "a node that gets its parameters elsewhere counts.",
     why="The node starts with its defaults. Neither `ros2 launch` nor the node reports it.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',
