@@ -18,10 +18,11 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, Use
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Literal, Substitution
+from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.arguments import declarations
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import quoted
-from preflight_analysis.model.sections import FileUse, Getter, SectionUse, is_yaml, param_files
+from preflight_analysis.model.sections import FileUse, Getter, SectionUse, param_files
 
 _SHOWN = 3
 

@@ -62,6 +62,7 @@ def _as_urdfdom(text: str) -> etree._Element | None:
     """The <robot> of a text with prefixes that nothing declares, with `--` in comments, or beside other elements: the
     parser of urdfdom minds none of it. None where it has other errors, too."""
     parser = _parser(recover=True)
+    root: etree._Element | None
     try:
         root = xml_root(text, parser)
         if any(each.type == etree.ErrorTypes.ERR_DOCUMENT_END for each in parser.error_log):
