@@ -1,7 +1,8 @@
 """LCH042: an action whose variable gets another one before it is used."""
 
 import pytest
-from support.check import check
+from preflight_analysis.findings.report import by_cause
+from support.check import check, findings_of
 
 
 def test_the_name_of_the_one_that_was_copied() -> None:
@@ -77,6 +78,22 @@ def test_what_no_list_has() -> None:
             ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH042] 'Node' is not part of the launch description
             return LaunchDescription([drive])
     """)
+
+
+def test_a_menu_of_which_one_is_launched_is_one_finding() -> None:
+    """https://github.com/501Ranger/rdkrobot_ws: ten lidars."""
+    nodes = "".join(f'            {name} = Node(package="p", executable="lidar")\n' for name in "abcde")
+    (found,) = by_cause(
+        findings_of(f"""
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+{nodes}            return LaunchDescription([a])
+    """)
+    )
+    assert found.message == "4 actions of this file are never launched: 'b', 'c', 'd', 'e'"
 
 
 @pytest.mark.silent

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.findings.finding import Alike, Finding, Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource, python_source
@@ -31,6 +31,9 @@ _ACTIONS = frozenset(
 _ASKS_FOR_NAMES = frozenset({"locals", "globals", "vars", "eval", "exec"})
 
 
+_OF_A_MENU = say("actions of this file are never launched")
+
+
 class _Lost(NamedTuple):
     name: str
     """That of its variable, "" where it has none."""
@@ -46,14 +49,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for lost in _lost(launch_file) if launch_file.is_python else ():
             again = (Related("assigned again here", context.location(path, lost.again)),) if lost.again else ()
+            is_unused = bool(lost.name) and lost.again is None
             yield rule.claim(
                 say(_why(lost), name=lost.name, kind=lost.kind),
                 context.location(path, lost.span),
                 subject=Subject("variable", lost.name) if lost.name else Subject("action", lost.kind),
                 kind="duplicate" if lost.same else None,
                 effect="style" if lost.same else None,
-                doubts=doubts(INTENDED=bool(lost.name) and lost.again is None),
+                doubts=doubts(INTENDED=is_unused),
                 related=again,
+                alike=Alike(_OF_A_MENU, lost.name) if is_unused else None,
             )
 
 
