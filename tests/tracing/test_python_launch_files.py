@@ -275,6 +275,33 @@ def test_a_function_that_waits_for_a_device_goes_on(harness: PythonHarness) -> N
     assert analysis.tree.complete
 
 
+def test_names_that_a_class_keeps_for_itself(harness: PythonHarness) -> None:
+    """https://github.com/yukaitung/lgdxrobot2-ros2"""
+    path = harness.write(
+        "launch/private.launch.py",
+        """
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        class Names:
+            __prefix = "arm"
+
+            @classmethod
+            def __of(cls, side):
+                return cls.__prefix + "_" + side
+
+            def both(self):
+                return [self.__of("left"), self._Names__of("right")]
+
+        def generate_launch_description():
+            return LaunchDescription([Node(package="p", executable="x", name=name) for name in Names().both()])
+        """,
+    )
+    tree = harness.launch(path).tree
+    assert not tree.problems
+    assert [node.name for node in tree.nodes] == ["/arm_left", "/arm_right"]
+
+
 def test_substitutions_and_actions_of_the_users_own(harness: PythonHarness) -> None:
     params = harness.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
     path = _described(

@@ -500,7 +500,8 @@ class Interpreter:
         values: dict[str, Any] = {"__module__": "python_launch_file", "__qualname__": scope.qualified(node.name)}
         inner = Scope(values, scope, scope.globals, None, of="class", name=values["__qualname__"])
         self.block(node.body, inner)
-        scope.set(node.name, self._decorated(node, self._class(node.name, tuple(bases), values), scope))
+        own = {self._mangled(name, inner): value for name, value in values.items()}
+        scope.set(node.name, self._decorated(node, self._class(node.name, tuple(bases), own), scope))
 
     def _class(self, name: str, bases: tuple[Any, ...], values: dict[str, Any]) -> Any:
         for each in bases:
