@@ -310,3 +310,12 @@ def test_hardware_of_a_description(named: str) -> None:
 @pytest.mark.parametrize("named", ["arm/ArmHardware", "mock_components/GenericSystem", "other/Hand", "${plugin}"])
 def test_hardware_that_is_there_or_elsewhere(named: str) -> None:
     assert not said({**EXPORTED, "urdf/arm.xacro": xacro(HARDWARE.format(named))}, "PRM021")
+
+
+@pytest.mark.silent
+def test_a_value_of_a_package_in_the_workspace(tmp_path: Path) -> None:
+    """https://github.com/zhj-buffer/AMR_ros2_slam_nav2: it has the Navigation2 of Foxy."""
+    manifest = tmp_path / "ws" / "src" / "nav2_amcl" / "package.xml"
+    manifest.parent.mkdir(parents=True)
+    manifest.write_text("<package><name>nav2_amcl</name></package>")
+    assert _of_value(tmp_path, ("nav2_amcl", "amcl", "robot_model_type"), "differential", "humble") == []
