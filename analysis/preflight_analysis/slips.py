@@ -1,14 +1,14 @@
-"""How far two names are apart: the one measure of what somebody may have meant.
+"""How far two names are apart: the one measure of what somebody may have meant. And what two sequences have in common.
 
 Restricted Damerau-Levenshtein distance: letters that are missing, too many, others or swapped with the next one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from rapidfuzz import process
-from rapidfuzz.distance import OSA
+from rapidfuzz.distance import OSA, LCSseq
 
 
 def edits(name: str, other: str, most: int | None = None) -> int:
@@ -27,3 +27,18 @@ def within(name: str, others: Sequence[str], most: int, limit: int) -> list[str]
     time."""
     found = process.extract(name, others, scorer=OSA.distance, score_cutoff=most, limit=limit)
     return [other for other, apart, _ in found if apart]
+
+
+def aligned(one: Sequence[str], other: Sequence[str]) -> Iterator[tuple[int, int, int, int, bool]]:
+    """Two sequences as runs of what is the same in both, as much as there is, and of what is not: begin and end of each
+    run in the one and in the other, and whether it is the same."""
+    at = beside = 0
+    for tag, start, end, first, last in LCSseq.opcodes(one, other).as_list():
+        if tag != "equal":
+            continue
+        if (at, beside) != (start, first):
+            yield at, start, beside, first, False
+        yield start, end, first, last, True
+        at, beside = end, last
+    if (at, beside) != (len(one), len(other)):
+        yield at, len(one), beside, len(other), False

@@ -13,7 +13,6 @@ import json
 import logging
 import re
 import sys
-import threading
 import time
 from collections import Counter
 from pathlib import Path
@@ -27,7 +26,7 @@ from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.reading.answers import answer
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.resolve_commands import resolve_together
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_together
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.readings import differences
@@ -121,7 +120,7 @@ def _run(folder: Path, environment: Any, cache: Path) -> dict[str, str]:
     found: dict[str, str] = {}
     for start in range(0, len(paths), 8):
         roots = [Root.of(path, {}) for path in paths[start : start + 8]]
-        resolve_together(workspace, roots, results, runner, threading.Event())
+        resolve_together(workspace, roots, Resolving(results, runner))
         for root in roots:
             for command in workspace.static(root.path, {}).tree.commands:
                 if command.launch_file and command.result is not None and command.result.status == "done":

@@ -236,6 +236,10 @@ class Collector:
         makes depend what it does."""
         self.unknowns.append(Unknown(what, reason, location, param, decides))
 
+    def note_branch(self, condition: str, location: Location, covers: tuple[Location, ...]) -> None:
+        """Note the actions that a program makes only if `condition` is as it says, which is not known."""
+        self.unknowns.append(Unknown(condition, "the actions here depend on it", location, covers=covers))
+
     def anonymous_name(self, identifier: str) -> str:
         """A fresh name for `$(anon identifier)`, numbered in the order of evaluation."""
         count = self._anonymous[identifier] = self._anonymous.get(identifier, 0) + 1

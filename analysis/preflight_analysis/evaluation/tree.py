@@ -61,6 +61,8 @@ class Unknown:
     the nodes to come."""
     decides: bool = False
     """Whether a program asks for it in a condition: what it did then is one of two things that it may do."""
+    covers: tuple[Location, ...] = ()
+    """Of a branch that a program takes, as far as is known, where `what` says when: the actions that are made in it."""
 
 
 @exact("value", "by_launch")

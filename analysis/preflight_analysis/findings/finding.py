@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Literal, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
@@ -107,3 +107,10 @@ class Finding:
         for the only thing that can be meant."""
         sure = self.confidence == "certain" and not self.condition and len(self.candidates) <= 1
         return self.fixes[0] if sure and len(self.fixes) == 1 and self.fixes[0].preferred else None
+
+
+def under(finding: Finding, condition: str) -> Finding:
+    """A finding that holds only where a condition does, which its message says."""
+    text = finding.text.followed_by(" (if {condition})", condition=condition)
+    message = f"{finding.message} (if {condition})"
+    return replace(finding, text=text, message=message, condition=condition, stops_launch=False, launch_order=0)

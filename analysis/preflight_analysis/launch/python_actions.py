@@ -16,7 +16,7 @@ from preflight_analysis.launch.model import Action, ActionAttribute, Literal, Su
 from preflight_analysis.launch.python_source import PythonSource
 
 MAX_DEPTH = 120
-OF_CODE = ("python", "own", "unknown")
+OF_CODE = ("python", "own", "unknown", "branch")
 """Commands of substitutions that stand for what only code gives."""
 
 
@@ -207,7 +207,7 @@ def _shown(piece: dict[str, Any], arguments: str) -> str:
         return str(piece.get("t"))
     if piece["s"] == "own":
         return str(piece.get("n"))
-    return f"var {arguments}" if arguments.isidentifier() else arguments
+    return f"var {arguments}" if piece["s"] == "unknown" and arguments.isidentifier() else arguments
 
 
 def _arguments(call: ast.Call, made_by: python_api.Call) -> dict[str, ast.expr]:

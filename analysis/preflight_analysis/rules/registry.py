@@ -23,11 +23,11 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.set_aside import is_set_aside
 from preflight_analysis.evaluation.problems import CommandFailed
-from preflight_analysis.evaluation.tree import Include
+from preflight_analysis.evaluation.tree import Include, Unknown
 from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.failure import Failure
-from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
+from preflight_analysis.findings.finding import SEVERITIES, Finding, Related, under
 from preflight_analysis.findings.instances import together, with_others
 from preflight_analysis.findings.policy import doubted
 from preflight_analysis.findings.severities import ALL, family_of
@@ -104,11 +104,13 @@ def run_rules(
     suppressions = {path: each for path, (each, _) in zip(documents, of_documents, strict=True) if each}
     chains = _first_chains(context)
     guessed = {unknown.location.file for unknown in context.tree.unknowns if unknown.decides}
+    in_branches = context.grouped(_file, "in branches", (each for each in context.tree.unknowns if each.covers))
     sorted_findings: list[Finding] = []
     for path in sorted({*by_file, *suppressions}):
         silenced = suppressions.get(path, ())
         here = context.whole(_alike, path, by_file.get(path, ()))
-        here = context.one(_with_doubts, path, here, path in guessed, _why_set_aside(context, path, here))
+        covering = in_branches.get(path, ())
+        here = context.one(_with_doubts, path, here, path in guessed, covering, _why_set_aside(context, path, here))
         document = documents[path] if silenced else None
         left = context.one(apply_suppressions, path, context.one(unique, path, here), silenced, document)
         judged = tuple(ran) if silenced else ()
@@ -258,8 +260,8 @@ def _found(context: Context, rules: Iterable[Rule], failures: list[Failure] | No
     return findings, ran
 
 
-def _file(finding: Finding) -> str:
-    return finding.location.file
+def _file(stands: Finding | Unknown) -> str:
+    return stands.location.file
 
 
 def _outside(rule: Rule, finding: Finding) -> Finding | None:
@@ -296,14 +298,25 @@ def _is_alike(one: Finding, other: Finding) -> bool:
     return (one.launch_order, one.endpoints, one.crash_of) == (other.launch_order, other.endpoints, other.crash_of)
 
 
-def _with_doubts(findings: tuple[Finding, ...], is_guessed: bool, set_aside: str | None) -> tuple[Finding, ...]:
+def _with_doubts(
+    findings: tuple[Finding, ...], is_guessed: bool, in_branches: Sequence[Unknown], set_aside: str | None
+) -> tuple[Finding, ...]:
     """What the rules found in one file. `is_guessed`: it is a program, and which branches it takes is not all known;
-    `set_aside`: why nobody starts it as it is."""
+    `in_branches` are those; `set_aside`: why nobody starts it as it is."""
     if set_aside is not None:
         findings = tuple(_information(f, set_aside) if f.severity in _GRAVE else f for f in findings)
     if is_guessed:
         findings = tuple(doubted(f, Doubt(Reason.BRANCHES)) if f.confidence == "certain" else f for f in findings)
+    for branch in in_branches:
+        covers = frozenset(branch.covers)
+        findings = tuple(
+            under(f, branch.what) if not f.condition and _stands_in(f.location, covers) else f for f in findings
+        )
     return findings
+
+
+def _stands_in(place: Location, covers: Iterable[Location]) -> bool:
+    return any(around.span.start <= place.span.start < around.span.end for around in covers)
 
 
 def _of_file(

@@ -24,10 +24,11 @@ from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.conditions import VARIABLE, named_arguments
 from preflight_analysis.evaluation.inversion import Assignment, assignments
+from preflight_analysis.evaluation.ros2.python_branches import BRANCH
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.failure import Failure
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, under
 from preflight_analysis.findings.policy import doubted
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import Input
@@ -252,7 +253,7 @@ class _Search:
             if key not in self._findings:
                 if finding.rule == _OF_VARIANTS and Doubt(Reason.DEPENDS) in finding.doubts:
                     finding = doubted(finding, _ASSUMED)  # noqa: PLW2901
-                self._findings[key] = _under(finding, condition), _text(finding, documents)
+                self._findings[key] = under(finding, condition), _text(finding, documents)
                 places = (finding.location, *(related.location for related in finding.related))
                 self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}
 
@@ -334,12 +335,6 @@ def _in_words(left_out: NotTaken) -> str:
     return f"{shown} is {'true' if left_out.condition == 'if' else 'false'}"
 
 
-def _under(finding: Finding, condition: str) -> Finding:
-    text = finding.text.followed_by(" (if {condition})", condition=condition)
-    message = f"{finding.message} (if {condition})"
-    return replace(finding, text=text, message=message, condition=condition, stops_launch=False, launch_order=0)
-
-
 def _unsure_of_others(finding: Finding, left_out: NotTaken, changed: AbstractSet[str], what_if: WhatIf) -> Finding:
     """It as information where a value that is made of arguments stands outside of the tag that was left out,
     below a condition of another argument than those that were changed: who changes these may change that one with them,
@@ -388,9 +383,14 @@ def _depends(finding: Finding, left_out: NotTaken, documents: Mapping[str, Docum
         return True
     if finding.location.file == file and not in_python:
         return _ARGUMENT.search(_text(finding, documents)) is not None
+    actions = tuple(left_out.action.walk())
+    if left_out.action.kind == BRANCH:
+        # What stands beside it in the branch has nothing to do with it.
+        at = finding.location.span.start
+        actions = tuple(each for each in actions if each.span.start <= at < each.span.end) or actions
     return any(
         named_arguments(attribute.value)
-        for action in left_out.action.walk()
+        for action in actions
         for attribute in action.attributes
         if attribute.value != left_out.written
     )
@@ -402,11 +402,14 @@ def _text(finding: Finding, documents: Mapping[str, Document]) -> str:
 
 
 def _stands_in(finding: Finding, left_out: NotTaken) -> bool:
-    """Whether a finding is of a tag, or of what that includes."""
+    """Whether a finding is of a tag, or of what that includes, or may be of code that it runs."""
+    if finding.location.file == left_out.origin[-1].file and any(a.kind == "opaque" for a in left_out.action.walk()):
+        return True
     chain = (related.location for related in finding.related if related.role == "included")
     return _holds(left_out, (finding.location, *chain))
 
 
 def _holds(left_out: NotTaken, places: Iterable[Location]) -> bool:
-    file, around = left_out.origin[-1].file, left_out.action.span
-    return any(place.file == file and around.start <= place.span.start < around.end for place in places)
+    file = left_out.origin[-1].file
+    here = [place.span.start for place in places if place.file == file]
+    return any(each.span.start <= at < each.span.end for at in here for each in left_out.action.walk())

@@ -39,6 +39,8 @@ class PythonRun:
     read_partly: bool = False
     """Whether it is a reading that left something to the run: what its code gives is only read then, as the run may
     give other numbers to what it makes."""
+    otherwise: tuple[str, ...] = ()
+    """Of a reading: the conditions that are answered otherwise than at first, as they are not known."""
     replaced: bool = False
     """Whether the text is another one by now, and this the last run that went well: nothing is asked for it again."""
 

@@ -36,6 +36,7 @@ from preflight_analysis.evaluation.problems import (
 )
 from preflight_analysis.evaluation.ros2.context import Configuration, Context
 from preflight_analysis.evaluation.ros2.place import Place, PythonRun
+from preflight_analysis.evaluation.ros2.python_branches import together
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable, unknown_text
 from preflight_analysis.evaluation.tree import Command, Edited
 from preflight_analysis.incremental.derived import derived
@@ -54,7 +55,7 @@ _READS = r"(?:environ(?:\.get)?|getenv)\s*[\[(]\s*['\"](%s)['\"]"
 _NAMED = re.compile(r"(['\"])([A-Za-z_][A-Za-z0-9_]*)\1")
 """What no run is told, whatever its file asks for."""
 _PACKAGE_ERROR = "PackageNotFoundError"
-_UNSEENED = "a condition depends on it, and only one of its branches is known"
+_UNSEENED = "a condition of the launch file depends on it"
 _IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
 
 
@@ -71,10 +72,11 @@ class Answer:
 
 
 class _Reply(NamedTuple):
-    """What an answer says, and its text."""
+    """What an answer says, its text, and that of the one that has the branches which it does not take."""
 
     values: Mapping[str, Any]
     output: str
+    branches: str | None
 
 
 def request(run: PythonRun) -> str:
@@ -84,6 +86,8 @@ def request(run: PythonRun) -> str:
         request["given"] = dict(run.given)
     if run.packages:
         request["packages"] = dict(run.packages)
+    if run.otherwise:
+        request["otherwise"] = list(run.otherwise)
     return MARK + json.dumps(request, sort_keys=True)
 
 
@@ -121,7 +125,7 @@ def recorded(
         del state.unknowns[unknowns:]
     if reply is None or launch_file.root is None:
         return launch_file, None
-    children = _actions(reply.output, run.source, whole)
+    children = _actions(reply, run.source, whole)
     for name, value in _variables(reply).items():
         context.set_variable(name, value)
     partly = bool(reply.values.get("unread"))
@@ -186,7 +190,7 @@ def _known(line: str, output: str) -> _Known | None:
 
 def _reusable(state: Collector, run: PythonRun) -> PythonRun:
     """The run that answered the question in a context that makes no difference; itself where there is none."""
-    for line in state.results.answering(_question(run, run.text)):
+    for line in state.results.answering(_question(run, run.text)) if not run.otherwise else ():
         known = _known_of(state, line)
         if known is not None and known.answers(run):
             return replace(run, variables=known.variables, calls=known.calls)
@@ -213,7 +217,7 @@ def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Spa
         earlier = replace(
             run, text=known.text, source=source, variables=known.variables, calls=known.calls, replaced=True
         )
-        return earlier, _Reply(_read(result.output), result.output), changed.after
+        return earlier, _reply(result.output), changed.after
     return None
 
 
@@ -227,7 +231,7 @@ def _last_reading(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, 
         if reading is not None and isinstance(values, dict) and values.get("unread") == [] and "error" not in values:
             changed = change(text, run.text)
             earlier = replace(earlier, source=_source(text, changed), replaced=True)
-            return earlier, _Reply(values, reading.output), changed.after
+            return earlier, _reply(reading.output), changed.after
     return None
 
 
@@ -296,7 +300,7 @@ def called(state: Collector, context: Context, place: Place, code: OwnCode) -> A
     run = _reusable(state, replace(place.run, calls=(*place.run.calls, call)))
     unknowns, problems = len(state.unknowns), len(state.problems)
     reply = _ask(state, context, place, run, place.origin(at))
-    if reply is None and not run.replaced and (last := _last_good(state, run)) is not None:
+    if reply is None and not (run.replaced or run.otherwise) and (last := _last_good(state, run)) is not None:
         run, reply, edited = last
         if not state.is_edited(run.file):
             wrong = frozenset(problem.location.span for problem in state.problems[problems:])
@@ -309,7 +313,7 @@ def called(state: Collector, context: Context, place: Place, code: OwnCode) -> A
         return Answer(place, text=text) if isinstance(text, str) else None
     changed, removed = _texts(reply.values.get("set")), reply.values.get("unset")
     gone = tuple(each for each in removed if isinstance(each, str)) if isinstance(removed, list) else ()
-    actions = _actions(reply.output, run.source, at)
+    actions = _actions(reply, run.source, at)
     return Answer(replace(place, run=run), actions, None, changed, gone, _variables(reply))
 
 
@@ -401,7 +405,21 @@ def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origi
     if isinstance(error, dict):
         _raised(state, place, run, error, origin)
         return None
-    return _Reply(reply, result.output)
+    branches = result.output
+    if reply.get("guessed") and "branches" not in reply and not run.read_partly and (reader := state.results.reader):
+        reading = reader.reading(line)
+        branches = reading.output if reading is not None else branches
+    return _reply(result.output, branches)
+
+
+@lru_cache(maxsize=256)
+def _reply(output: str, branches: str | None = None) -> _Reply:
+    """An answer with what the other branches of its conditions make: of a run those that a reading tells, whose numbers
+    may be other ones."""
+    values, others = _read(output), _read(branches) if branches not in (None, output) else None
+    if isinstance(others, dict):
+        return _Reply(together(values, others.get("branches"), callable=False), output, branches)
+    return _Reply(together(values, values.get("branches"), callable=True), output, branches)
 
 
 @lru_cache(maxsize=64)
@@ -422,9 +440,15 @@ def _read(output: str) -> Any:
 
 
 @lru_cache(maxsize=256)
-def _actions(output: str, source: PythonSource, around: Span) -> tuple[Action, ...]:
+def _actions_of(
+    output: str, branches: str | None, source: PythonSource, around: Span
+) -> tuple[Action, ...]:
+    return actions_of(_reply(output, branches).values.get("actions"), source, around)
+
+
+def _actions(reply: _Reply, source: PythonSource, around: Span) -> tuple[Action, ...]:
     """The actions of an answer."""
-    return actions_of(_read(output).get("actions"), source, around)
+    return _actions_of(reply.output, reply.branches, source, around)
 
 
 def _missed(state: Collector, context: Context, place: Place, run: PythonRun, missed: object, origin: Origin) -> None:

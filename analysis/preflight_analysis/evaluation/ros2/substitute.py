@@ -419,6 +419,11 @@ class Performer:
         self.state.note_unknown("a value", "the launch file was not run", self._at(part))
         raise _Failure
 
+    def _of_branches(self, part: Substitution) -> str:
+        what = self._word(part, 0)
+        self.state.note_unknown(what, "what the launch file makes depends on it, and it is not known", self._at(part))
+        raise _Failure
+
     def _own(self, part: Substitution) -> str:
         number, name = (self._word(part, index) for index in (0, 1))
         answer = called(self.state, self.context, self.place, OwnCode(number, name, "perform", part.span))
@@ -439,6 +444,7 @@ _PERFORM_PYTHON: dict[str, Callable[[Performer, Substitution], str]] = {
     "python": Performer._not_read,
     "own": Performer._own,
     "unknown": Performer._unknown,
+    "branch": Performer._of_branches,
     "command": Performer._command,
 }
 _PERFORM: dict[str, Callable[[Performer, Substitution], str]] = {

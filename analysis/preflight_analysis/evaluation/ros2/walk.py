@@ -22,11 +22,13 @@ from preflight_analysis.evaluation.problems import (
     PythonException,
     UnexpandedEntity,
 )
+from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import Changes, Context, NotByPartsError
 from preflight_analysis.evaluation.ros2.declared import Declared
 from preflight_analysis.evaluation.ros2.entity import Entity, Part
 from preflight_analysis.evaluation.ros2.events import Events, Noted
 from preflight_analysis.evaluation.ros2.place import Place, PythonRun
+from preflight_analysis.evaluation.ros2.python_branches import BRANCH
 from preflight_analysis.evaluation.ros2.python_runs import calls_own_code, recorded
 from preflight_analysis.evaluation.ros2.state import Added, State
 from preflight_analysis.evaluation.ros2.substitute import Performer
@@ -287,15 +289,16 @@ class Walk:
 
     def _condition(self, performer: Performer, action: Action, attribute: ActionAttribute, name: Condition) -> bool:
         """Whether a condition is as it has to be; it is not where it is not known or none."""
-        result = performer.value(attribute.value)
+        of_branch = action.kind == BRANCH  # that its condition is not known is noted where it stands
+        result = Resolved(attribute.value.text, known=False) if of_branch else performer.value(attribute.value)
         span = attribute.value.span
         if performer.state.is_assumed(performer.place.location(action.head_span)):
             return True
-        known = self.language.actions.get(action.kind)
         if not result.known:
             at = performer.place.location(span)
-            performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
-            if known is not None and known.configures:
+            if not of_branch:
+                performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
+            if self.may_configure(action):
                 performer.context.cannot_follow(at)
             if any(below.kind in _CHANGES_STATES for below in action.walk()):
                 self.any_change(performer.place)
@@ -310,6 +313,13 @@ class Walk:
         bad = BadValue(action.kind, attribute.name, result.text, "true, false, 1 or 0", ("true", "false"))
         performer.state.problem(bad, performer.place.origin(span))
         return False
+
+    def may_configure(self, action: Action) -> bool:
+        """Whether there may be other launch configurations after an action, or after what is below a branch."""
+        known = self.language.actions.get(action.kind)
+        if action.kind == BRANCH:
+            return any(map(self.may_configure, action.children))
+        return known is not None and known.configures
 
     def _note_names(self, launch_file: LaunchFile) -> None:
         found = configurations_of(launch_file)

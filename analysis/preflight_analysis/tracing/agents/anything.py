@@ -302,6 +302,9 @@ class Anything:
     def __eq__(self, other: Any) -> bool:
         return asked(self._preflight_name, sys._getframe(1), self is other)
 
+    def __ne__(self, other: Any) -> bool:
+        return asked(self._preflight_name, sys._getframe(1), self is not other)
+
     __hash__ = object.__hash__
 
     # As a collection
@@ -312,8 +315,7 @@ class Anything:
         if name == "UNPACK_EX":
             count = (count & 0xFF) + (count >> 8)
         elif name != "UNPACK_SEQUENCE":
-            asked(self._preflight_name, sys._getframe(1))
-            count = 1
+            count = int(asked(self._preflight_name, sys._getframe(1)))
         return iter([self[0] for _ in range(count)])
 
     def __next__(self) -> Any:

@@ -175,6 +175,17 @@ class Interpreter:
                 return [getattr(frame.node, "lineno", 0), getattr(frame.node, "col_offset", -1)]
         return None
 
+    @property
+    def steps(self) -> int:
+        """How much was done."""
+        return self._steps
+
+    @property
+    def asks(self) -> str:
+        """Where it asks for something now: the places of all calls that lead there."""
+        places = ((getattr(frame.node, "lineno", 0), getattr(frame.node, "col_offset", -1)) for frame in self.frames)
+        return "/".join(f"{line}:{column}" for line, column in places)
+
     def is_provided_for(self, errors: Any, catches: Callable[[Any, Any], bool], ends: Callable[[Any], bool]) -> bool:
         """Whether the code that is gone through now stands in a `try` that handles one of the errors."""
         return any(
@@ -317,7 +328,9 @@ class Interpreter:
 
     def _stmt_For(self, node: ast.For, scope: Scope) -> Any:
         count = rewritten._count(node.target)
-        for value in self.each(self.evaluate(node.iter, scope)):
+        values = self.evaluate(node.iter, scope)
+        self.frame.node = node.iter
+        for value in self.each(values):
             self._assign(node.target, rewritten._parts(value, count) if count else value, scope)
             ended = self.block(node.body, scope)
             if ended is _BREAK:
@@ -526,19 +539,22 @@ class Interpreter:
     def _stmt_Match(self, node: Any, scope: Scope) -> Any:
         subject = self.evaluate(node.subject, scope)
         for case in node.cases:
-            if self._fits(case.pattern, subject, scope) and (case.guard is None or self.truth(case.guard, scope)):
+            if self._fits(case.pattern, node.subject, subject, scope) and (
+                case.guard is None or self.truth(case.guard, scope)
+            ):
                 return self.block(case.body, scope)
         return None
 
-    def _fits(self, pattern: Any, subject: Any, scope: Scope) -> bool:
+    def _fits(self, pattern: Any, asked: ast.expr, subject: Any, scope: Scope) -> bool:
         if isinstance(pattern, ast.MatchValue):
+            self.frame.node = ast.copy_location(ast.Compare(asked, [ast.Eq()], [pattern.value]), pattern)
             return self.holds(self._native(operator.eq, marked(subject), self.evaluate(pattern.value, scope)))
         if isinstance(pattern, ast.MatchSingleton):
             return subject is pattern.value
         if isinstance(pattern, ast.MatchOr):
-            return any(self._fits(each, subject, scope) for each in pattern.patterns)
+            return any(self._fits(each, asked, subject, scope) for each in pattern.patterns)
         if isinstance(pattern, ast.MatchAs):
-            if pattern.pattern is not None and not self._fits(pattern.pattern, subject, scope):
+            if pattern.pattern is not None and not self._fits(pattern.pattern, asked, subject, scope):
                 return False
             if pattern.name is not None:
                 scope.set(pattern.name, subject)
@@ -915,7 +931,9 @@ class Interpreter:
                 return
             generator = generators[index]
             count = rewritten._count(generator.target)
-            for value in self.each(self.evaluate(generator.iter, inner if index else scope)):
+            values = self.evaluate(generator.iter, inner if index else scope)
+            self.frame.node = generator.iter
+            for value in self.each(values):
                 self._assign(generator.target, rewritten._parts(value, count) if count else value, inner)
                 if all(self.truth(each, inner) for each in generator.ifs):
                     rounds(index + 1)

@@ -33,6 +33,7 @@ from preflight_analysis.tracing.agents.fake_launch.main import _module_with, _of
 from preflight_analysis.tracing.agents.fake_launch.serialize import Serializer, TooMuchError
 from preflight_analysis.tracing.reading import data_classes, interpreter, natives
 from preflight_analysis.tracing.reading.around import Around, Context, Services
+from preflight_analysis.tracing.reading.branches import Asked, Reading, with_branches
 from preflight_analysis.tracing.reading.files import Disk, Files, Path
 from preflight_analysis.tracing.reading.values import FAKES, NotRead, Raised, whole
 
@@ -83,9 +84,9 @@ def tell(job: Mapping[str, Any], within: Surroundings) -> str | None:
     tree = module_of(job["text"]) if len(job["text"]) <= MAX_TEXT else None
     if tree is None:
         return None
-    with _LOCK, _Fakes(job) as fakes:
+    with _LOCK:
         try:
-            made = fakes.answer(tree, within)
+            made = _answer(job, tree, within)
             _measure(made)
             return _OURS.sub("", json.dumps(made, default=_as_text))
         except (NotRead, TooMuchError, RecursionError, MemoryError) as error:
@@ -94,6 +95,27 @@ def tell(job: Mapping[str, Any], within: Surroundings) -> str | None:
         except Exception:
             _log.exception("reading %s failed", job["file"])
             return None
+
+
+def _answer(job: Mapping[str, Any], tree: ast.Module, within: Surroundings) -> dict[str, Any]:
+    """The answer, with what the other branches of conditions make that are not known."""
+    numbers: dict[tuple[str, int], int] = {}
+
+    def read(otherwise: frozenset[str]) -> Reading:
+        with _Fakes(job, otherwise, numbers) as fakes:
+            answer = fakes.answer(tree, within)
+            return Reading(answer, fakes.asked, fakes.around.interpreter.steps if fakes.around is not None else 0)
+
+    def other(otherwise: frozenset[str]) -> Reading | None:
+        try:
+            return read(otherwise)
+        except (NotRead, TooMuchError, RecursionError, MemoryError):
+            return None
+
+    otherwise = frozenset(job.get("otherwise", ()))
+    if otherwise:
+        other(frozenset())  # it has the numbers
+    return with_branches(read(otherwise), otherwise, other)
 
 
 def _measure(answer: Any) -> None:
@@ -128,11 +150,15 @@ def _name_of(job: Mapping[str, Any]) -> str:
 
 
 class _Fakes:
-    """The fakes, while they are used for one reading."""
+    """The fakes, while they are used for one reading: conditions that are not known and reached as one of `otherwise`
+    get the other answer. `numbers` are those of what is made where none does, by how that is reached and how often
+    it was before: what several branches make has one number."""
 
-    def __init__(self, job: Mapping[str, Any]) -> None:
-        self.job = job
+    def __init__(self, job: Mapping[str, Any], otherwise: frozenset[str], numbers: dict[tuple[str, int], int]) -> None:
+        self.job, self._otherwise, self._numbers = job, otherwise, numbers
         self.around: Around | None = None
+        self.asked: dict[str, Asked] = {}
+        self._made: dict[str, int] = {}
         self._asked = 0
 
     def __enter__(self) -> _Fakes:
@@ -141,7 +167,7 @@ class _Fakes:
         anything._asked.clear()
         anything.on_use.clear()
         anything.on_condition[:] = [self._guess]
-        RECORDER.count = itertools.count(_FIRST)
+        vars(RECORDER)["count"] = self._known_numbers() if self._otherwise else self._first_numbers()
         RECORDER.file = self.job["file"]
         RECORDER.packages = dict(self.job["packages"])
         RECORDER.assumed = frozenset(self.job["assumed"])
@@ -161,6 +187,23 @@ class _Fakes:
     def _place(self) -> list[int] | None:
         return None if self.around is None else self.around.interpreter.place_in(RECORDER.file)
 
+    def _first_numbers(self) -> Iterator[int]:
+        for number in itertools.count(_FIRST):
+            self._numbers[self._reached()] = number
+            yield number
+
+    def _known_numbers(self) -> Iterator[int]:
+        while True:
+            reached = self._reached()
+            number = self._numbers.get(reached)
+            yield int(hashlib.sha256(repr(reached).encode()).hexdigest()[:12], 16) if number is None else number
+
+    def _reached(self) -> tuple[str, int]:
+        """How that is reached which is made now, and how often it was before."""
+        asks = "" if self.around is None else self.around.interpreter.asks
+        count = self._made[asks] = self._made.get(asks, 0) + 1
+        return asks, count
+
     def _note_assumed(self, variable: Any, frame: Any) -> None:
         if variable in RECORDER.assumed:
             RECORDER.assumed_in.setdefault(variable, self._place())
@@ -172,6 +215,19 @@ class _Fakes:
         if self._asked > MAX_ASKED:
             raise NotRead("too many conditions are not known")
         RECORDER.note_guess(name, frame)
+        return self._chosen(answer)
+
+    def _chosen(self, answer: bool) -> bool:
+        """The answer to the condition that the program asks for now."""
+        if self.around is None:
+            return answer
+        interpreter = self.around.interpreter
+        node, key = interpreter.frame.node, interpreter.asks
+        answer ^= key in self._otherwise
+        if isinstance(node, ast.expr) and key not in self.asked:
+            # Python asks whether it is in there.
+            is_negated = isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.NotIn)
+            self.asked[key] = Asked(ast.unparse(node), answer ^ is_negated)
         return answer
 
     def answer(
