@@ -33,9 +33,10 @@ def aligned(one: Sequence[str], other: Sequence[str]) -> Iterator[tuple[int, int
     """Two sequences as runs of what is the same in both, as much as there is, and of what is not: begin and end of each
     run in the one and in the other, and whether it is the same."""
     at = beside = 0
-    for tag, start, end, first, last in LCSseq.opcodes(one, other).as_list():
-        if tag != "equal":
+    for each in LCSseq.opcodes(one, other):
+        if each.tag != "equal":
             continue
+        start, end, first, last = each.src_start, each.src_end, each.dest_start, each.dest_end
         if (at, beside) != (start, first):
             yield at, start, beside, first, False
         yield start, end, first, last, True

@@ -44,7 +44,7 @@ def test_what_is_written_out() -> None:
     assert (arg.kind, [c.attributes[0].value.text for c in arg.children]) == ("arg", ["a1", "s2"])
     default = arg.value("default")
     assert default is not None
-    assert (default.text, WHOLE[default.span.start : default.span.end]) == ("a1", "MODEL")
+    assert (default.text, WHOLE[default.span.start : default.span.end]) == ("a1", "a1")
     description = arg.value("description")
     assert description is not None
     assert WHOLE[description.span.start : description.span.end] == "é"

@@ -261,7 +261,36 @@ def generate_launch_description():
 """
     assert gone_to(tmp_path / "a", text + PACKAGE) == []
     text = text.replace("$0", "").replace(", config", ", con$0fig")
-    assert gone_to(tmp_path / "b", text + PACKAGE) == ["p/package.xml:1"]
+    assert gone_to(tmp_path / "b", text + PACKAGE) == ["p/params.yaml:1"]
+
+
+IN_VARIABLES = [
+    ('pkg = "$0p"', 'Node(package=pkg, executable="talker")', "p/package.xml:1"),
+    ('pkg = "p"', 'Node(package=pk$0g, executable="talker")', "p/package.xml:1"),
+    ('exe = "tal$0ker"', 'Node(package="p", executable=exe)', "p/p/talker.py:9 def start():"),
+    ('exe = "talker"', 'Node(package="p", executable=ex$0e)', "p/p/talker.py:9 def start():"),
+    ('a = LaunchConfiguration("$0a")', 'Node(package="p", executable="talker", name=a)', "main.launch.py:8 a"),
+    ('a = LaunchConfiguration("a")', 'Node(package="p", executable="talker", name=$0a)', "main.launch.py:8 a"),
+]
+
+
+@pytest.mark.parametrize(("before", "node", "target"), IN_VARIABLES)
+def test_from_where_a_value_is_written_and_from_where_it_is_given(
+    tmp_path: Path, before: str, node: str, target: str
+) -> None:
+    text = f"""
+//- main.launch.py
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+def generate_launch_description():
+    {before}
+    return LaunchDescription([
+        DeclareLaunchArgument("a", default_value="b"), {node}
+    ])
+"""
+    assert gone_to(tmp_path, text + PACKAGE) == [target]
 
 
 def test_the_value_of_an_argument_that_is_passed(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.evaluation.ros2.python_agreement import differences
 from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.reading.answers import answer
@@ -29,7 +30,6 @@ from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.resolve_commands import Resolving, resolve_together
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from support.readings import differences
 
 from tools.python_launch_coverage import DEFINES
 from tools.ros2_python_corpus import take_over

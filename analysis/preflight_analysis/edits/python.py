@@ -13,6 +13,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.hash_comments import HashComments
+from preflight_analysis.edits.python_uses import PythonUses
 from preflight_analysis.launch.model import Action, ActionAttribute
 from preflight_analysis.launch.python_api import NODES
 from preflight_analysis.launch.python_source import PythonSource, last_name
@@ -116,11 +117,14 @@ class PythonWriter(HashComments):
         """Classes are no tags."""
         return ()
 
-    def replace(self, span: Span, new: str) -> tuple[Edit, ...]:
-        """Write `new` in the place of a part of a text that is written as one string, with its quotes."""
+    def replace(self, span: Span, new: str, *, everywhere: bool = False) -> tuple[Edit, ...]:
+        """Write `new` in the place of a part of a text that is written as one string, with its quotes. `everywhere`:
+        also where the text goes to several things, for which it may be right or not."""
         literal = self._literal_at(span)
         if literal is None:
             return self._in_comment(span, new)
+        if not (everywhere or self._uses.is_for_one(literal.node)):
+            return ()
         if "\\" in self._text[literal.span.start : literal.span.end]:
             return ()
         written = new.replace("\\", "\\\\").replace(literal.quote, "\\" + literal.quote)
@@ -421,6 +425,10 @@ class PythonWriter(HashComments):
     @cached_property
     def _parents(self) -> dict[int, ast.AST]:
         return {id(child): node for node in self._nodes for child in ast.iter_child_nodes(node)}
+
+    @cached_property
+    def _uses(self) -> PythonUses:
+        return PythonUses(self._nodes, self._parents)
 
     def _literal_at(self, span: Span) -> _Literal | None:
         """The text that has all of a span."""

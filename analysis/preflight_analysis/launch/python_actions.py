@@ -81,7 +81,9 @@ class _Reader:
             kind_span = head = span = source.line_span(line)
         else:
             kind_span = head = span = around
-        pair = self._pair(kind, record, parent) if call is None and parent is not None else None
+        pair = self._pair_written(record) if call is None and not line else None
+        if pair is None and call is None and parent is not None:
+            pair = self._pair(kind, record, parent)
         if pair is not None and not line:
             kind_span = head = span = source.span(pair[0])
         made_by = python_api.made_by(kind)
@@ -113,16 +115,19 @@ class _Reader:
         for keyword in call.keywords if call is not None else ():
             if keyword.value is node:
                 name_span = self._source.keyword_span(keyword)
-        return ActionAttribute(
-            name, name_span, self._value(value, span), Span(name_span.start, max(span.end, name_span.end))
-        )
+        made = self._value(value, span)
+        if name in ("if", "unless"):
+            made = made._replace(span=span)  # the class says what is asked
+        return ActionAttribute(name, name_span, made, Span(name_span.start, max(span.end, name_span.end)))
 
     def _value(self, value: object, span: Span) -> Value:
         if isinstance(value, dict) and "v" in value:
-            plain = value["v"]
+            plain, span = value["v"], self._written(value, span)
             text = plain if isinstance(plain, str) else str(plain).lower() if isinstance(plain, bool) else str(plain)
             return Value(text, span, (Literal(text, span),), typed=Typed(plain))
         parts = tuple(self._parts(value, span, 0))
+        if len(parts) == 1:
+            span = parts[0].span  # that of what gives it, wherever that is written
         if any(isinstance(part, Substitution) for part in parts):
             return Value("".join(part.text for part in parts), span, parts)
         return _literal("".join(part.text for part in parts), span)
@@ -131,16 +136,15 @@ class _Reader:
         for piece in value if isinstance(value, list) and depth < MAX_DEPTH else ():
             if isinstance(piece, str):
                 yield Literal(piece, span)
+            elif isinstance(piece, dict) and isinstance(piece.get("x"), str):
+                yield Literal(piece["x"], self._written(piece, span))
             elif isinstance(piece, dict) and isinstance(piece.get("s"), str) and isinstance(piece.get("w"), list):
                 yield self._substitution(piece, span, depth)
 
     def _substitution(self, piece: dict[str, Any], around: Span, depth: int) -> Substitution:
         line, column = _place(piece.get("p"))
         call = self._source.call(line, column, str(piece.get("n"))) if line else None
-        # One that is kept in a variable is shown where it is used.
         span = self._source.span(call) if call is not None else around
-        if not (around.start <= span.start and span.end <= around.end):
-            span = around
         command = piece["s"]
         inside = span
         if call is not None and span is not around and call.args and not call.keywords and len(call.args) == 1:
@@ -154,14 +158,31 @@ class _Reader:
         text = f"$({shown})"
         return Substitution(command, span, arguments, inside, text, span, words)
 
+    def _written(self, value: dict[str, Any], around: Span) -> Span:
+        """Where a text is written, if that is known."""
+        node = self._source.expression(value.get("p"))
+        return around if node is None else self._source.span(node)
+
+    def _pair_written(self, record: dict[str, Any]) -> tuple[ast.expr, ast.expr | None] | None:
+        """The name of a part of an action where its place is known, and its value as far as that is."""
+        given = record.get("a")
+        attributes = given if isinstance(given, dict) else {}
+        node = self._expression(_key(record))
+        value = self._source.value_beside(node) if node is not None else None
+        value = value or self._expression(attributes.get("to")) or self._expression(attributes.get("value"))
+        return (node, value) if node is not None else None
+
+    def _expression(self, value: object) -> ast.expr | None:
+        """Where the text is made that is all of a value."""
+        piece = value[0] if isinstance(value, list) and _is_written(value) else value
+        return self._source.expression(piece.get("p")) if isinstance(piece, dict) else None
+
     def _pair(self, kind: str, record: dict[str, Any], parent: _Parent) -> tuple[ast.expr, ast.expr | None] | None:
         """Of a child that is no object: its key and its value in the parent's argument, or that argument alone."""
         whole = parent.part or self._whole(kind, parent)
         if whole is None:
             return None
-        given = record.get("a")
-        attributes = given if isinstance(given, dict) else {}
-        key = _plain(attributes.get("name", attributes.get("from", attributes.get("value"))))
+        key = _plain(_key(record))
         if id(whole) not in self._keys:
             known: dict[str, tuple[ast.expr, ast.expr | None]] = {}
             self._keys[id(whole)] = known
@@ -236,8 +257,20 @@ def _place(place: object) -> tuple[int, int]:
     return 0, -1
 
 
+def _key(record: dict[str, Any]) -> object:
+    given = record.get("a")
+    attributes = given if isinstance(given, dict) else {}
+    return attributes.get("name", attributes.get("from", attributes.get("value")))
+
+
+def _is_written(value: list[Any]) -> bool:
+    return len(value) == 1 and isinstance(value[0], dict) and isinstance(value[0].get("x"), str)
+
+
 def _plain(value: object) -> str | None:
-    return value[0] if isinstance(value, list) and len(value) == 1 and isinstance(value[0], str) else None
+    if isinstance(value, list) and len(value) == 1:
+        return value[0]["x"] if _is_written(value) else value[0] if isinstance(value[0], str) else None
+    return None
 
 
 def _literal(text: str, span: Span) -> Value:

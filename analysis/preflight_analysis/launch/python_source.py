@@ -65,6 +65,21 @@ class _Program:
         return found
 
     @cached_property
+    def expressions(self) -> dict[tuple[int, ...], ast.expr]:
+        """By lines and columns of begin and end; of several the innermost one."""
+        return {
+            (node.lineno, node.col_offset, node.end_lineno or 0, node.end_col_offset or 0): node
+            for node in self.nodes
+            if isinstance(node, ast.expr)
+        }
+
+    @cached_property
+    def pairs(self) -> dict[int, ast.expr]:
+        """Values of dictionaries, by the `id` of their keys."""
+        found = ((key, value) for node in self.nodes if isinstance(node, ast.Dict) for key, value in _items(node))
+        return {id(key): value for key, value in found}
+
+    @cached_property
     def assigned(self) -> dict[str, ast.expr]:
         """What names stand for that are assigned in one place only."""
         found: dict[str, list[ast.expr]] = {}
@@ -254,6 +269,16 @@ class PythonSource:
             (c for c in at if last_name(c.func) == name), at[0] if len(at) == 1 or (at and column >= 0) else None
         )
 
+    def expression(self, place: object) -> ast.expr | None:
+        """The expression from one line and column to another."""
+        if isinstance(place, list) and len(place) == 4 and all(isinstance(each, int) for each in place):
+            return self._program.expressions.get(tuple(place))
+        return None
+
+    def value_beside(self, key: ast.expr) -> ast.expr | None:
+        """The value in a dictionary whose key that is."""
+        return self._program.pairs.get(id(key))
+
     def span(self, node: ast.expr | ast.keyword) -> Span:
         """Where a node stands; of a text what is between its quotes."""
         return self._now(self._span(node))
@@ -305,6 +330,10 @@ class PythonSource:
     def _offset(self, line: int, column: int) -> int:
         start, end = self.lines.line_start(line - 1), self.lines.line_start(line)
         return min(self._bytes.offset(self._bytes.bytes_before(start) + column), end)
+
+
+def _items(node: ast.Dict) -> Iterator[tuple[ast.expr, ast.expr]]:
+    return ((key, value) for key, value in zip(node.keys, node.values, strict=True) if key is not None)
 
 
 def _in_any_case(body: list[ast.stmt]) -> Iterator[ast.AST]:

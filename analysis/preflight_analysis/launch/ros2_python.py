@@ -175,7 +175,7 @@ class _Reader:
             if isinstance(item, ast.Call) and last_name(item.func) == "ParameterFile" and item.args:
                 item = item.args[0]
             path = self._value(item)
-            if path and all(isinstance(piece, str) or piece["s"] != "python" for piece in path):
+            if path and all(piece.get("s") != "python" for piece in path):
                 found.append({"k": "param", "a": {"from": path}, "c": [], "part": number})
         return found
 
@@ -189,7 +189,7 @@ class _Reader:
     def _value(self, node: ast.expr, depth: int = 0) -> list[Any]:
         node = self._source.resolved(node)
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            return [node.value]
+            return [{"x": node.value, "p": [node.lineno, node.col_offset, node.end_lineno, node.end_col_offset]}]
         if depth < _MAX_DEPTH and isinstance(node, (ast.List, ast.Tuple)):
             return [piece for each in node.elts for piece in self._value(each, depth + 1)]
         if depth < _MAX_DEPTH and isinstance(node, ast.Call):

@@ -15,7 +15,7 @@ from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.frames import frame_at, published_at
 from preflight_analysis.queries.handed_over import is_handed_over, targets_in
 from preflight_analysis.queries.param_files import from_param_file, is_param_file
-from preflight_analysis.queries.places import action_at, remaps_of, use_at
+from preflight_analysis.queries.places import action_at, passed_at, remaps_of, uses_at
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import component_at, connections, executable_at, made_at
 from preflight_analysis.queries.symbol_at import NamedSymbol, remaps_at, symbol_at
@@ -37,6 +37,9 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
     name that it replaces to the node's own; from a finding to its related places."""
     context, _ = context.taking(offset)
     analysis, file = context.analyses[0], context.path
+    if (passed := passed_at(analysis.launch_files.get(file), offset)) is not None:
+        source = context.location(file, passed.span)
+        return tuple(Target(each.location, source) for each in definition(context, passed.written, findings))
     if is_handed_over(context.analyses, file):
         found = targets_in(context.analyses, file, offset)
         return _targets(found[1], context.location(file, found[0])) if found is not None else ()
@@ -46,8 +49,10 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
         return tuple(Target(place, context.location(file, span)) for place, span in from_param_file(context, offset))
     if targets := _targets_of_param(context, offset):
         return targets
-    use = use_at(analysis.tree, file, offset)
-    if use is not None and use.kind != "executable":
+    uses = uses_at(analysis.tree, file, offset)
+    for use in uses:
+        if use.kind == "executable" or use.location != uses[0].location:
+            break
         target = use.target
         if target is None or _same_place(target, use.location):
             target = next((step for step in reversed(use.origin) if not _same_place(step, use.location)), None)

@@ -41,6 +41,7 @@ from preflight_analysis.queries.places import (
     nodes_around,
     nodes_of,
     params_of,
+    passed_at,
     place,
     remaps_of,
     shown_path,
@@ -102,6 +103,10 @@ def hover(
     None where there is nothing to say. `unseen` is how many more roots there are that reach the file. With a `context`
     what other files say of a parameter, a package or an argument is there too.
     """
+    known = next((a.launch_files[file] for a in analyses if file in a.launch_files), None)
+    if (passed := passed_at(known, offset)) is not None:
+        said = hover(analyses, file, passed.written, unseen, context)
+        return Hover(said.markdown, passed.span) if said is not None else None
     left_out: NotTaken | None = None
     if context is not None:
         context, left_out = context.taking(offset)

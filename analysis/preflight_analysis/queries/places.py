@@ -5,14 +5,46 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import Include, LaunchNode, LaunchTree, Param, Remap, Use
 from preflight_analysis.findings.markdown import code, escaped
-from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.model import action_at as action_at  # noqa: PLC0414 - it belongs to what stands at an offset
 from preflight_analysis.workspace.workspace import Analysis
+
+
+class Passed(NamedTuple):
+    """What an action of a program is given by an expression: where that is, and where the value is written."""
+
+    span: Span
+    written: int
+
+
+def passed_at(launch_file: LaunchFile | None, offset: int) -> Passed | None:
+    """What the expression at `offset` gives, if that is written elsewhere: it is a variable, or made of some."""
+    found = _passed(launch_file, offset)
+    return found if found is not None and _passed(launch_file, found.written) is None else None
+
+
+def _passed(launch_file: LaunchFile | None, offset: int) -> Passed | None:
+    if launch_file is None or launch_file.root is None or not launch_file.is_python:
+        return None
+    around = (
+        attribute
+        for action in launch_file.root.walk()
+        for attribute in action.attributes
+        if attribute.span.contains(offset)
+        and (attribute.name_span == attribute.span or not attribute.name_span.contains(offset))
+    )
+    found = min(around, key=lambda each: each.span.end - each.span.start, default=None)
+    if found is None:
+        return None
+    written = found.value.span.start
+    is_here = found.span.start <= written <= found.span.end
+    return None if is_here else Passed(Span(offset, found.span.end), written)
 
 
 def use_at(tree: LaunchTree, file: str, offset: int) -> Use | None:

@@ -14,6 +14,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.edits.gate import passes
+from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchTree
@@ -86,7 +87,11 @@ def rename(context: QueryContext, offset: int, new: str) -> tuple[RenameEdit, ..
 def _written(context: QueryContext, edit: RenameEdit) -> RenameEdit:
     """The edit as the format of its file has it."""
     document = context.document(edit.location.file)
-    edits = writer_of(document).replace(edit.location.span, edit.text) if document is not None else ()
+    writer, span = writer_of(document) if document is not None else None, edit.location.span
+    if isinstance(writer, PythonWriter):
+        edits = writer.replace(span, edit.text, everywhere=True)
+    else:
+        edits = writer.replace(span, edit.text) if writer is not None else ()
     if len(edits) != 1:
         raise RenameRefusedError(f"The name at {shown(context, edit.location)} cannot be changed")
     return replace(edit, location=edits[0].location, text=edits[0].text)

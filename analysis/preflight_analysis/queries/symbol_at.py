@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
@@ -12,7 +13,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, Re
 from preflight_analysis.graph.annotations import annotated_names
 from preflight_analysis.model.entry import Kind as EntryKind
 from preflight_analysis.model.entry import Mention
-from preflight_analysis.queries.places import action_at
+from preflight_analysis.queries.places import action_at, passed_at
 from preflight_analysis.queries.query_context import QueryContext
 
 Kind = Literal["arg", "file", "package", "executable", "component", "node", "param", "topic", "env", "machine"]
@@ -40,6 +41,9 @@ def symbol_at(context: QueryContext, offset: int) -> NamedSymbol | None:
     """What is named at `offset`; None where nothing is. Goes by syntax first, so that it works under a condition that
     is false and in a file that no launcher would take. What a run of a Python launch file told, and a parameter file,
     go by what came of them."""
+    if (passed := passed_at(context.launch_file(context.path), offset)) is not None:
+        found = symbol_at(context, passed.written)
+        return replace(found, span=passed.span) if found is not None else None
     facts = context.facts(context.path)
     here = [m for m in facts.mentions if m.span.contains(offset)] if facts is not None else []
     if here:

@@ -22,9 +22,9 @@ BRANCH = "branch"
 MAX_PAIRS = 100_000_000
 """Actions of two branches that are compared, each with each, at worst."""
 _NAMES = ("name", "from")
-_OF_ONE = ("i", "only")
-"""What the record of an action has that may be otherwise in each branch: its number, as that of `id`, and what it
-depends on."""
+_OF_ONE = ("i", "only", "p")
+"""What a record has that may be otherwise in each branch: the number of an action, as that of `id`, what it depends on,
+and where it is written."""
 
 
 def together(answer: dict[str, Any], branches: object, *, callable: bool) -> dict[str, Any]:
@@ -168,7 +168,7 @@ def _identity(record: dict[str, Any]) -> str:
     """What is made in which call; of a part its name, of what is left out all of it."""
     if record["k"] == BRANCH:
         return shape(record)
-    return json.dumps([record["k"], record.get("n"), record.get("i") if "n" in record else _name(record)])
+    return json.dumps([record["k"], record.get("n"), record.get("i") if "n" in record else shape(_name(record))])
 
 
 def _is_record(value: object) -> bool:
@@ -202,6 +202,8 @@ def _in_any_branch(value: Any) -> Any:
         return [_in_any_branch(each) for each in value]
     if not isinstance(value, dict):
         return value
+    if isinstance(value.get("x"), str):
+        return value["x"]
     found = {name: _in_any_branch(each) for name, each in value.items() if name not in _OF_ONE}
     if found.get("s") == "own" and isinstance(found.get("w"), list):
         found["w"] = found["w"][1:]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ast
 import json
+import logging
 import re
 from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
@@ -36,6 +37,7 @@ from preflight_analysis.evaluation.problems import (
 )
 from preflight_analysis.evaluation.ros2.context import Configuration, Context
 from preflight_analysis.evaluation.ros2.place import Place, PythonRun
+from preflight_analysis.evaluation.ros2.python_agreement import differences, with_places
 from preflight_analysis.evaluation.ros2.python_branches import together
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable, unknown_text
 from preflight_analysis.evaluation.tree import Command, Edited
@@ -57,6 +59,8 @@ _NAMED = re.compile(r"(['\"])([A-Za-z_][A-Za-z0-9_]*)\1")
 _PACKAGE_ERROR = "PackageNotFoundError"
 _UNSEENED = "a condition of the launch file depends on it"
 _IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
+_ANSWERS = frozenset(("actions", "text", "error"))
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +76,11 @@ class Answer:
 
 
 class _Reply(NamedTuple):
-    """What an answer says, its text, and that of the one that has the branches which it does not take."""
+    """What an answer says, its text, and that of the reading which completes it."""
 
     values: Mapping[str, Any]
     output: str
-    branches: str | None
+    read: str | None
 
 
 def request(run: PythonRun) -> str:
@@ -389,10 +393,14 @@ def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origi
         state.problem(PythonException("", result.reason), origin)
         state.note_unknown(what, result.reason, origin[-1])
         return None
-    reply = _read(result.output)
+    reply, read = _read(result.output), result.output
     if not isinstance(reply, dict):
         state.note_unknown(what, "its run gave no answer that can be read", origin[-1])
         return None
+    reading = reader.reading(line) if "unread" not in reply and (reader := state.results.reader) is not None else None
+    if reading is not None:
+        read = reading.output
+        _compare(run.file, result.output, read)
     for path, text in (_texts(reply.get("files")) or {}).items():
         if state.files.exists(path):
             continue  # a file of the host's is what it is, whatever the run says
@@ -405,21 +413,33 @@ def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origi
     if isinstance(error, dict):
         _raised(state, place, run, error, origin)
         return None
-    branches = result.output
-    if reply.get("guessed") and "branches" not in reply and not run.read_partly and (reader := state.results.reader):
-        reading = reader.reading(line)
-        branches = reading.output if reading is not None else branches
-    return _reply(result.output, branches)
+    return _reply(result.output, read)
 
 
 @lru_cache(maxsize=256)
-def _reply(output: str, branches: str | None = None) -> _Reply:
-    """An answer with what the other branches of its conditions make: of a run those that a reading tells, whose numbers
-    may be other ones."""
-    values, others = _read(output), _read(branches) if branches not in (None, output) else None
-    if isinstance(others, dict):
-        return _Reply(together(values, others.get("branches"), callable=False), output, branches)
-    return _Reply(together(values, values.get("branches"), callable=True), output, branches)
+def _reply(output: str, read: str | None = None) -> _Reply:
+    """An answer, with what only a reading tells: the places of texts, and what the other branches of conditions make.
+    To what it makes a run may give other numbers."""
+    values, reading = _read(output), _read(read) if read not in (None, output) else None
+    if not isinstance(reading, dict):
+        return _Reply(together(values, values.get("branches"), callable=True), output, read)
+    if isinstance(values.get("actions"), list):
+        values = {**values, "actions": with_places(values["actions"], reading.get("actions"))}
+    return _Reply(together(values, reading.get("branches"), callable=False), output, read)
+
+
+@lru_cache(maxsize=256)
+def _compare(file: str, run: str, read: str) -> None:
+    """Log where a reading is wrong, once: what is known of it has to be what the run tells."""
+    one, other = _read(read), _read(run)
+    if not (isinstance(one, dict) and isinstance(other, dict)) or not _ANSWERS & other.keys():
+        return
+    try:
+        found = next(differences(one, other), None)
+    except (KeyError, TypeError, AttributeError, IndexError):
+        return  # nothing of the form of what a run tells is relied on
+    if found is not None:
+        _log.warning("reading %s differs from its run: %s", file, found)
 
 
 @lru_cache(maxsize=64)
@@ -441,14 +461,14 @@ def _read(output: str) -> Any:
 
 @lru_cache(maxsize=256)
 def _actions_of(
-    output: str, branches: str | None, source: PythonSource, around: Span
+    output: str, read: str | None, source: PythonSource, around: Span
 ) -> tuple[Action, ...]:
-    return actions_of(_reply(output, branches).values.get("actions"), source, around)
+    return actions_of(_reply(output, read).values.get("actions"), source, around)
 
 
 def _actions(reply: _Reply, source: PythonSource, around: Span) -> tuple[Action, ...]:
     """The actions of an answer."""
-    return _actions_of(reply.output, reply.branches, source, around)
+    return _actions_of(reply.output, reply.read, source, around)
 
 
 def _missed(state: Collector, context: Context, place: Place, run: PythonRun, missed: object, origin: Origin) -> None:

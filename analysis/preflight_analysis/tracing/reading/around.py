@@ -293,7 +293,7 @@ class Around:
         Path._files = self.files
         Context._around = self
         self.environment = Environment(self, variables)
-        self.interpreter = Interpreter(self)
+        self.interpreter = Interpreter(self, str(job["file"]), base.RECORDER.written)
         self.path: list[Any] = list(folders)
         self._modules: dict[str, Any] = {}
         self._more: dict[str, Any] = {}

@@ -45,6 +45,8 @@ MAX_STEPS = 200_000
 MAX_SECONDS = 1.0
 """Of the processor, after the first half second: how busy the machine is changes nothing."""
 _UNMEASURED = 0.5
+MAX_WRITTEN = 10_000
+"""Characters of a text of which is known where it is written."""
 MAX_CALLS = 40
 """Of functions of the program, one in the other."""
 _CHECK = 500
@@ -72,6 +74,8 @@ _SPECIAL = frozenset(
     )
 )
 _KEPT = (list, tuple, set, frozenset, dict)
+_MAKING = (ast.JoinedStr, ast.BinOp, ast.Call)
+"""Expressions that make texts."""
 
 
 class Return:
@@ -117,8 +121,11 @@ class Around(Protocol):
 class Interpreter:
     """One reading."""
 
-    def __init__(self, around: Around) -> None:
-        self.around = around
+    def __init__(self, around: Around, file: str, written: dict[int, tuple[Any, list[int]]]) -> None:
+        self.around, self.file = around, file
+        self.written = written
+        """Texts by `id`, with the places in `file` of the expressions that make them."""
+        self._literals: dict[ast.Constant, str] = {}
         self.frames: list[Frame] = []
         self.natives = Natives(self)
         self._names: dict[Any, Any] = {}
@@ -629,7 +636,17 @@ class Interpreter:
         does = self._expressions.get(type(node))
         if does is None:
             raise NotRead(f"{type(node).__name__} is not read")
-        return does(node, scope)
+        value = does(node, scope)
+        return self._written(value, node) if type(value) is str and type(node) in _MAKING else value
+
+    def _written(self, text: str, node: Any) -> str:
+        """A text that an expression makes, as one that is known to be written there: what is made of one thing in two
+        places is one object otherwise. Of what is written elsewhere that is known already."""
+        if id(text) in self.written or self.frame.file != self.file or not 1 < len(text) <= MAX_WRITTEN:
+            return text
+        made = text[:1] + text[1:]
+        self.written[id(made)] = made, [node.lineno, node.col_offset, node.end_lineno, node.end_col_offset]
+        return made
 
     def truth(self, node: ast.expr, scope: Scope) -> bool:
         """Whether an expression holds."""
@@ -646,7 +663,12 @@ class Interpreter:
         return bool(self._native(bool, value)) if not isinstance(value, Module) else True
 
     def _expr_Constant(self, node: ast.Constant, scope: Scope) -> Any:
-        return node.value
+        if type(node.value) is not str:
+            return node.value
+        found = self._literals.get(node)
+        if found is None:
+            found = self._literals[node] = self._written("".join((node.value[:1], node.value[1:])), node)
+        return found
 
     def _expr_Name(self, node: ast.Name, scope: Scope) -> Any:
         try:

@@ -53,6 +53,8 @@ class Recorder:
         """The folder of the module that is used where ROS has none."""
         self.descriptions: dict[str, Any] = {}
         """What is known of robot descriptions in packages that are not here (`skeletons.Skeletons`)."""
+        self.written: dict[int, tuple[Any, list[int]]] = {}
+        """Texts by `id`, with the places of the expressions that made them, where a launch file is read and not run."""
         self.unknown = False
         """Whether something that the file is given is not known."""
         self.none: dict[str, Any] = {}

@@ -2,7 +2,8 @@
 
 An action is `{"k": kind, "n": class, "p": [line, column], "a": {name: value}, "c": [children]}`, with `"i"` its number
 if the host may ask for its execution. A value is a list of pieces, or `{"v": plain}`. A piece is a text, or
-`{"s": command, "w": [words], "n": class, "p": place}`.
+`{"s": command, "w": [words], "n": class, "p": place}`. A text of which is known where it is written is
+`{"x": text, "p": place}`, and a plain one has `p` as well: lines and columns of begin and end.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any, Iterable, Iterator, Optional
 
 from ..anything import MARKS, AnyBase, Anything, is_unknown, name_of
 from .base import (
+    RECORDER,
     Action,
     Condition,
     LaunchDescription,
@@ -113,13 +115,13 @@ class Serializer:
             serialized["form"], serialized["value"] = ["yaml"], self.parts(value)
         else:
             serialized["form"] = ["plain"]
-            serialized["value"] = {"v": value.decode(errors="replace") if isinstance(value, bytes) else value}
+            serialized["value"] = _of_plain(value.decode(errors="replace") if isinstance(value, bytes) else value)
 
     def _typed(self, made: dict[str, Any], value: ParameterValue) -> None:
         inner, serialized = value.value, made["a"]
         serialized["type"] = [value.preflight_type or "yaml"]
         if _plain(inner) and not is_unknown(inner):
-            serialized["form"], serialized["value"] = ["plain"], {"v": inner}
+            serialized["form"], serialized["value"] = ["plain"], _of_plain(inner)
         elif is_unknown(inner) or (inner and all(isinstance(each, Substitution) for each in inner)):
             serialized["form"], serialized["value"] = ["typed"], self.parts(inner)
         else:
@@ -129,7 +131,7 @@ class Serializer:
     def _items(self, made: dict[str, Any], items: Iterable[Any]) -> None:
         for each in items:
             # A text as it is stays one, whatever it would be as YAML.
-            value = {"v": each} if _plain(each) and not is_unknown(each) else self.parts(each)
+            value = _of_plain(each) if _plain(each) and not is_unknown(each) else self.parts(each)
             made["c"].append({"k": "item", "a": {"value": value}, "c": []})
 
     # Entities
@@ -220,7 +222,8 @@ class Serializer:
 
     def _part(self, sub: Any) -> Any:
         if type(sub) is TextSubstitution:
-            return sub.text
+            place = _written(sub.text)
+            return sub.text if place is None else {"x": sub.text, "p": place}
         own = overrides(sub, "perform") or (isinstance(sub, FindPackage) and overrides(sub, "find"))
         if isinstance(sub, Worded) and not own:
             words = [[part for each in word for part in self._pieces(each)] for word in sub.words]
@@ -237,6 +240,17 @@ def _own(thing: Any) -> dict[str, Any]:
     """A substitution or condition that the user's code performs."""
     name = type(thing).__name__
     return {"s": "own", "w": [[str(thing.preflight_id)], [name]], "n": name, "p": thing.preflight_place}
+
+
+def _of_plain(value: Any) -> dict[str, Any]:
+    place = _written(value)
+    return {"v": value} if place is None else {"v": value, "p": place}
+
+
+def _written(text: Any) -> Optional[list[int]]:
+    """Where a text is written."""
+    found = RECORDER.written.get(id(text))
+    return None if found is None else found[1]
 
 
 def _plain(value: Any) -> bool:
