@@ -143,7 +143,7 @@ async def test_what_the_last_good_run_said_stays_while_a_file_is_typed(harness: 
         # It parses again, and raises when it is run.
         editor.change(path, half.replace("x = ['\n", "x = undefined\n"))
         raising = await editor.having(path, "LCH032")
-        assert editor.covered(path, raising.range) == "x = undefined"
+        assert editor.covered(path, raising.range) == "undefined"
         assert [each for each in said(editor, path) or () if each[0] != "LCH032"] == whole
 
         # A package is named anew: what was said of it goes at once, and nothing else.

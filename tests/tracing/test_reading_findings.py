@@ -89,3 +89,16 @@ def test_an_exception_is_at_the_line_of_the_name(harness: ReadingHarness) -> Non
     (found,) = [each for each in analysis.findings if each.rule == "LCH032"]
     document = analysis.documents[analysis.root]
     assert document.lines.position(found.location.span.start)[0] + 1 == 6
+
+
+def test_a_name_that_is_raised_for_says_which_was_meant(harness: ReadingHarness) -> None:
+    analysis = harness.read(
+        "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+        "def generate_launch_description():\n    talker = Node(package='bot', executable='talker')\n"
+        "    return LaunchDescription([\n        talkr,\n    ])\n"
+    )
+    text = analysis.documents[analysis.root].text
+    (found,) = [each for each in analysis.findings if each.rule in ("LCH032", "LCH043")]
+    assert found.message == "NameError: name 'talkr' is not defined; did you mean 'talker'?"
+    assert text[slice(*found.location.span)] == "talkr"
+    assert [fix.title for fix in found.fixes] == ["Replace 'talkr' with 'talker'"]

@@ -37,12 +37,16 @@ def undefined_names(document: Document) -> tuple[tuple[str, str | None, Span, bo
     defined = {s.get_name() for s in top.get_symbols() if s.is_assigned() or s.is_imported() or s.is_namespace()}
     defined |= {s.get_name() for t in tables for s in t.get_symbols() if s.is_declared_global() and s.is_assigned()}
     outside = [
-        (symbol.get_name(), table.get_lineno() if table is not top else 0)
+        (symbol.get_name(), table)
         for table in tables
         for symbol in table.get_symbols()
         if symbol.is_referenced() and (symbol.is_global() or (table is top and not symbol.is_local()))
     ]
-    missing = [(name, line) for name, line in outside if name not in defined and name not in _KNOWN]
+    within: dict[str, list[symtable.SymbolTable]] = {}
+    for name, table in outside:
+        if name not in defined and name not in _KNOWN:
+            within.setdefault(name, []).append(table)
+    missing = [(name, t.get_lineno() if t is not top else 0) for name, those in within.items() for t in those]
     if not missing or _is_open(source):
         return ()
     noted = {id(inner) for each in source.nodes for note in _notes(each) for inner in ast.walk(note)}
@@ -62,9 +66,15 @@ def undefined_names(document: Document) -> tuple[tuple[str, str | None, Span, bo
     idle += [each for each in source.module.body if isinstance(each, ast.If) and _is_of_a_program(each.test)]
     unused = {id(inner) for each in idle for inner in ast.walk(each)}
     return tuple(
-        (name, nearest(name, defined), source.whole_span(node), id(node) not in unused)
+        (name, nearest(name, defined | _own(within[name])), source.whole_span(node), id(node) not in unused)
         for name, node in sorted(places.items())
     )
+
+
+def _own(tables: list[symtable.SymbolTable]) -> set[str]:
+    """The names of the one function that asks for a name; where several do, none is there for all."""
+    symbols = tables[0].get_symbols() if len(tables) == 1 else ()
+    return {each.get_name() for each in symbols if each.is_local()}
 
 
 def _is_spoken_of(module: ast.Module, function: ast.AST) -> bool:

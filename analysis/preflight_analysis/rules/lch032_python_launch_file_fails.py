@@ -14,7 +14,7 @@ from preflight_analysis.environment.loaded_modules import is_loaded_module
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.model.asked_variables import lack_of_asked
 from preflight_analysis.model.context import Context
@@ -32,6 +32,7 @@ from preflight_analysis.model.problems import fix, problems_of, shown
 from preflight_analysis.model.python_imports import absent_module, slip_of
 from preflight_analysis.model.python_keywords import UnknownKeyword, unknown_keywords
 from preflight_analysis.model.said import missing_file, missing_name, words_of
+from preflight_analysis.model.undefined_names import undefined_names
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.problems import problem_claim
 from preflight_analysis.rules.rule import Rule
@@ -68,6 +69,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         why: tuple[Doubt, ...] = ()
         lack: Lack | None = None
         related: tuple[Related, ...] = ()
+        meant: tuple[str, str] | None = None
         match problem.kind:
             case PythonImportFailed() as failed:
                 # Which modules there are is a matter of the environment, which may be another one when it is launched.
@@ -94,9 +96,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
                 near, missing = _near_file(context, error, said), _missing_file(error, said)
                 about = Subject("file", missing or absent or "")
+                meant = _meant_name(context, problem.location) if error == "NameError" else None
                 top = absent_top(context.disk, missing) if missing is not None else None
                 message += meant_file(context, missing, near) if missing is not None else ""
-                if near is not None:
+                if meant is not None:
+                    about, message = Subject("name", meant[0]), f"{message}{did_you_mean(meant[1])}"
+                elif near is not None:
                     if top is None and missing is not None:
                         why = doubts(ON_ROBOT=is_below_own_home(context, missing, problem.location.file))
                 elif missing is not None:
@@ -131,8 +136,32 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related = tuple(Related("in the traceback", place) for place in places)
         said_by_python = say("{quoted}", quoted=message)
         yield problem_claim(
-            rule, problem, said_by_python, subject=about, effect=rule.effect, doubts=why, related=related, lack=lack
+            rule,
+            problem,
+            said_by_python,
+            subject=about,
+            kind="near" if meant is not None else None,
+            effect=rule.effect,
+            doubts=why,
+            candidates=meant[1:2] if meant is not None else (),
+            related=related,
+            fixes=_renamed(context, problem.location, meant) if meant is not None else (),
+            lack=lack,
         )
+
+
+def _meant_name(context: Context, place: Location) -> tuple[str, str] | None:
+    """A name that nothing defines, where it is raised for, and the one that was probably meant."""
+    launch_file = context.launch_files.get(place.file)
+    names = undefined_names(launch_file.document) if launch_file is not None else ()
+    written = context.text(place)
+    return next(((name, near) for name, near, _, _ in names if name == written and near is not None), None)
+
+
+def _renamed(context: Context, place: Location, meant: tuple[str, str]) -> tuple[Fix, ...]:
+    writer, (name, near) = context.writer(place.file), meant
+    edits = writer.rename_names(name, near) if isinstance(writer, PythonWriter) else ()
+    return fix(f"Replace '{name}' with '{near}'", edits, preferred=True)
 
 
 def _keyword(rule: Rule, context: Context, path: str, wrong: UnknownKeyword) -> Finding:

@@ -51,6 +51,7 @@ from preflight_analysis.launch.python_source import PythonSource
 MARK = "\0launch file "
 """What no command line begins with."""
 _PACKAGE = re.compile(r"package '([^']*)' not found")
+_UNDEFINED = re.compile(r"name '(\w+)' is not defined")
 _ENVIRON = re.compile(r"environ\s*\[\s*['\"]([^'\"]+)['\"]\s*\]")
 _READS_ENVIRONMENT = re.compile(r"\b(?:environ|getenv)\b")
 _READS = r"(?:environ(?:\.get)?|getenv)\s*[\[(]\s*['\"](%s)['\"]"
@@ -562,7 +563,8 @@ def _raised(state: Collector, place: Place, run: PythonRun, error: Mapping[str, 
     ]
     here = [line for file, line in own if file == run.file]
     if here:
-        origin = place.origin(run.source.line_span(here[-1]))
+        named = _name_on(run, here[-1], message) if name == "NameError" else None
+        origin = place.origin(named or run.source.line_span(here[-1]))
     package = _PACKAGE.search(message) if name == _PACKAGE_ERROR else None
     variable = _variable(run, here[-1], message) if name == "KeyError" and here else None
     if package is not None:
@@ -583,6 +585,14 @@ def _raised(state: Collector, place: Place, run: PythonRun, error: Mapping[str, 
         if name == "AssertionError" and not message and behind:
             message = _asserted(state, run, *behind[-1])
         state.problem(PythonException(name, message, places, str(error.get("absent") or "")), origin)
+
+
+def _name_on(run: PythonRun, line: int, message: str) -> Span | None:
+    """Where the name stands on a line that nothing defines."""
+    found = _UNDEFINED.match(message)
+    names = (node for node in run.source.nodes if isinstance(node, ast.Name) and node.lineno == line)
+    node = next((each for each in names if found is not None and each.id == found[1]), None)
+    return run.source.span(node) if node is not None else None
 
 
 def _variable(run: PythonRun, line: int, message: str) -> str | None:
