@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.evaluation.ros2.python_branches import together
+from preflight_analysis.queries.symbols import symbols
 from preflight_analysis.workspace.workspace import Analysis
 from support.reading_harness import IMPORTS, ReadingHarness
 
@@ -178,6 +179,23 @@ def test_many_conditions_have_a_bound(harness: ReadingHarness) -> None:
     )
     assert 1 < len(analysis.tree.not_taken) <= 8
     assert len([each for each in analysis.tree.unknowns if each.decides]) == 40
+
+
+def test_the_outline_has_what_each_branch_makes_as_it_is_written(harness: ReadingHarness) -> None:
+    analysis = harness.read(
+        f"""{HEAD}def generate_launch_description():
+    path = os.path.join(get_package_share_directory("bot"), "launch", "a.launch.xml")
+    found = [IncludeLaunchDescription(path)]
+    if unknown == "r1":
+        found.append(Node(package="bot", executable="talker", name="one"))
+    else:
+        found.append(Node(package="bot", executable="talker", name=LaunchConfiguration("name")))
+    return LaunchDescription(found)
+"""
+    )
+    names = {each.name for each in symbols(analysis.launch_files[analysis.root])}
+    assert names >= {"one", 'LaunchConfiguration("name")'}
+    assert not any("$(" in f"{each.name} {each.detail}" for each in symbols(analysis.launch_files[analysis.root]))
 
 
 def test_what_is_no_answer_is_left_out() -> None:

@@ -15,8 +15,9 @@ from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import PackageNotFound, Problem
 from preflight_analysis.generation import Generation, ros
 from preflight_analysis.incremental.derived import Remembering, derived
-from preflight_analysis.launch.model import Action, Value
+from preflight_analysis.launch.model import Action, Substitution, Value
 from preflight_analysis.launch.problems import ProblemKind
+from preflight_analysis.launch.python_actions import OF_CODE
 
 ParamValue = Any
 """bool, int, float, str, bytes (binfile), list, dict, None or `CommandValue`: what the parameter server would hold."""
@@ -293,6 +294,13 @@ class NotTaken(NamedTuple):
         found = self.action.value(self.condition)
         assert found is not None, "a tag is left out by an attribute that it has"
         return found
+
+    @property
+    def shown(self) -> str:
+        """The condition on one line; of one that only code knows, the code."""
+        written, parts = " ".join(self.written.text.split()), self.written.parts
+        is_code = len(parts) == 1 and isinstance(parts[0], Substitution) and parts[0].command in OF_CODE
+        return written[len("$(") : -1] if is_code else written
 
 
 DEFAULT_MACHINE_TIMEOUT = 10.0

@@ -282,7 +282,7 @@ def _frame(context: Context, branch: Branch) -> Item:
 
 
 def _not_taken(analysis: Analysis, left_out: NotTaken, value: str) -> Item:
-    written = " ".join(left_out.written.text.split())
+    written = left_out.shown
     said = f" is {value.strip()}" if written != value.strip() else ""
     note = f"left out: {left_out.condition} {written}{said}"
     return _written(analysis, left_out.action, left_out.origin[-1].file, note)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.ros2.python_branches import BRANCH
 from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile, Value
 from preflight_analysis.launch.schema import Tag
@@ -24,6 +25,8 @@ class Symbol:
     children: tuple[Symbol, ...] = ()
 
 
+_UNSEEN = (BRANCH, "inline")
+"""What holds actions and is no object of its own for people."""
 _OF_PYTHON = NODE_KINDS | {"include"}
 
 
@@ -33,23 +36,27 @@ def symbols(launch_file: LaunchFile) -> tuple[Symbol, ...]:
     root, tags = launch_file.root, tags_of(launch_file.generation)
     if root is not None and launch_file.partial:
         ours = (replace(action, children=()) for action in root.walk() if action.kind in _OF_PYTHON)
-        return tuple(sorted((_symbol(action, tags) for action in ours), key=lambda symbol: symbol.span))
-    return _below(root, tags) if root else ()
+        return tuple(sorted((_symbol(launch_file, action, tags) for action in ours), key=lambda symbol: symbol.span))
+    return tuple(_below(launch_file, root, tags)) if root else ()
 
 
-def _below(action: Action, tags: Mapping[str, Tag]) -> tuple[Symbol, ...]:
-    return tuple(_symbol(child, tags) for child in action.children if child.kind in tags)
+def _below(launch_file: LaunchFile, action: Action, tags: Mapping[str, Tag]) -> Iterator[Symbol]:
+    for child in action.children:
+        if child.kind in tags:
+            yield _symbol(launch_file, child, tags)
+        elif child.kind in _UNSEEN:
+            yield from _below(launch_file, child, tags)
 
 
-def _symbol(action: Action, tags: Mapping[str, Tag]) -> Symbol:
-    children, tag = _below(action, tags), tags[action.kind]
+def _symbol(launch_file: LaunchFile, action: Action, tags: Mapping[str, Tag]) -> Symbol:
+    children, tag = tuple(_below(launch_file, action, tags)), tags[action.kind]
     named = next((a for n in tag.named_by if (a := action.attribute(n)) and _is_known(a.value)), None)
     selection = named.value.span if named else action.kind_span
     if not (action.span.start <= selection.start and selection.end <= action.span.end):
         selection = action.span
     return Symbol(
-        " ".join(named.value.text.split()) if named else action.kind,
-        _detail(action, tag),
+        _written(launch_file, named.value) if named else action.kind,
+        _detail(launch_file, action, tag),
         action.kind,
         action.span,
         selection,
@@ -62,9 +69,15 @@ def _is_known(value: Value) -> bool:
     return bool(value.text.strip()) and not any(part.command == "python" for part in value.substitutions)
 
 
-def _detail(action: Action, tag: Tag) -> str:
+def _written(launch_file: LaunchFile, value: Value) -> str:
+    """A value as written in the file. What code makes is no text of the launch language there."""
+    of_code = launch_file.is_python and bool(value.substitutions)
+    return " ".join((launch_file.document.text[slice(*value.span)] if of_code else value.text).split())
+
+
+def _detail(launch_file: LaunchFile, action: Action, tag: Tag) -> str:
     """What else is worth a glance, as written in the file."""
-    given = {a.name: " ".join(a.value.text.split()) for a in action.attributes}
+    given = {a.name: _written(launch_file, a.value) for a in action.attributes}
     if action.kind in NODE_KINDS:
         detail = "/".join(given[n] for n in ("pkg", "type", "exec", "plugin") if n in given)
     else:

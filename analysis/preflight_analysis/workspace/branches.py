@@ -32,8 +32,7 @@ from preflight_analysis.findings.finding import Finding, under
 from preflight_analysis.findings.policy import doubted
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import Input
-from preflight_analysis.launch.model import Action, LaunchFile, Substitution
-from preflight_analysis.launch.python_actions import OF_CODE
+from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.model.syntax import CONDITIONS
 from preflight_analysis.workspace.index import Root
 
@@ -327,10 +326,7 @@ def _shown(args: Assignment, given: Assignment) -> str:
 
 
 def _in_words(left_out: NotTaken) -> str:
-    parts = left_out.written.parts
-    is_code = len(parts) == 1 and isinstance(parts[0], Substitution) and parts[0].command in OF_CODE
-    written = " ".join(left_out.written.text.split())
-    written = written[len("$(") : -1] if is_code else written
+    written = left_out.shown
     shown = written if len(written) <= _LONGEST else f"{written[: _LONGEST - 3]}..."
     return f"{shown} is {'true' if left_out.condition == 'if' else 'false'}"
 

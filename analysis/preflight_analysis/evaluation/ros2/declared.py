@@ -12,6 +12,7 @@ from dataclasses import field
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.ros2.python_branches import BRANCH
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile
 
@@ -20,7 +21,7 @@ PASSED = {"include": "arg", "inline": "arg_passed"}
 """Actions that pass arguments on, with the kind of child that does. An `inline` is a launch description by itself, in
 which an `arg` declares one."""
 _DEFERRED = ("timer", "ros_timer")
-_HOLDING = ("group", "inline", *_DEFERRED)
+_HOLDING = ("group", "inline", BRANCH, *_DEFERRED)
 
 Included = Callable[[LaunchFile, Action], LaunchFile | None]
 """The file that an include of a launch file leads to without any configuration."""
@@ -76,7 +77,7 @@ def _steps(actions: Iterable[Action]) -> tuple[_Step, ...]:
     for action in actions:
         if action.kind == "reset":
             break  # launch looks no further
-        has_condition = action.attribute("if") is not None or action.attribute("unless") is not None
+        has_condition = action.kind == BRANCH or any(action.attribute(name) is not None for name in ("if", "unless"))
         if action.kind in _HOLDING:
             below = _steps(action.children) if _is_looked_into(action) else ()
             found.append(_Step(action, has_condition, _passed_names(action), below))

@@ -9,7 +9,9 @@ from typing import Any
 
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 
-_TEMPORARY = re.compile(r"/tmp/(?:tmp\w+|preflight-\w+-\d+)")  # noqa: S108 - those of others, in a text
+_TEMPORARY = re.compile(r"/tmp/[\w-]+")  # noqa: S108 - those of others, in a text
+_ORDER = "the order of "
+"""What reasons begin with where a run may have the same in another order."""
 _NUMBERS = frozenset(("i", "id", "handler", "starts", "node"))
 """Attributes by which an action names another one, or itself, by its number: a run that reads more makes more."""
 _FORMS = frozenset(("form", "type"))
@@ -32,8 +34,8 @@ def with_places(run: Any, read: Any) -> Any:
 def differences(read: dict[str, Any], run: dict[str, Any]) -> Iterator[str]:
     """Where a reading has something known that a run has otherwise."""
     whole = not read["unread"]
-    if not whole and read["guessed"]:
-        return  # another branch than that of the run
+    if not whole and (read["guessed"] or any(str(reason).startswith(_ORDER) for _, reason, _ in read["unread"])):
+        return  # another branch than that of the run, or another order
     if ("error" in read) != ("error" in run):
         if whole:
             yield f"error: read {read.get('error')} run {run.get('error')}"
