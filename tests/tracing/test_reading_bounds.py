@@ -135,7 +135,7 @@ def test_statements_do_nothing(here: Path, statements: str) -> None:
     assert dict(vars(os_environ())) == before
     found = _read(here, _made("'fine'"))
     assert found is not None
-    assert found["actions"][0]["a"]["message"] == ["fine"]
+    assert [each["x"] for each in found["actions"][0]["a"]["message"]] == ["fine"]
 
 
 def os_environ() -> Any:
