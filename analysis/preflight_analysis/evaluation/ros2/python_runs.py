@@ -461,9 +461,7 @@ def _read(output: str) -> Any:
 
 
 @lru_cache(maxsize=256)
-def _actions_of(
-    output: str, read: str | None, source: PythonSource, around: Span
-) -> tuple[Action, ...]:
+def _actions_of(output: str, read: str | None, source: PythonSource, around: Span) -> tuple[Action, ...]:
     return actions_of(_reply(output, read).values.get("actions"), source, around)
 
 

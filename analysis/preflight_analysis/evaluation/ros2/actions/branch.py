@@ -37,4 +37,4 @@ def _in_branch(place: Place, action: Action) -> Place:
     return replace(place, run=replace(place.run, otherwise=(*place.run.otherwise, asked.text), read_partly=True))
 
 
-ENTITIES = (LaunchAction(kind=BRANCH, tag=None, python=(), evaluate=evaluate, holds_actions=True),)
+ENTITIES = (LaunchAction(kind=BRANCH, tag=None, evaluate=evaluate, holds_actions=True),)
