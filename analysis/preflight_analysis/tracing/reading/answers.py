@@ -10,7 +10,7 @@ from typing import Any
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS, distribution
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.tracing import ros2_recipe
+from preflight_analysis.tracing import interior, ros2_recipe
 from preflight_analysis.tracing.reading import reader
 from preflight_analysis.tracing.reading.reader import Surroundings
 
@@ -34,6 +34,8 @@ def tell(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> st
     job = {**request, "packages": packages, "assumed": assumed}
     variables = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", **sourced}
     variables.update({name: value for name in variables if (value := environment.variables.get(name)) is not None})
+    if environment.variables.get("HOME") == interior.home():
+        variables["HOME"] = interior.home()  # that of a run, which is not always the one that counts
     around = Surroundings(
         disk,
         tuple(root.rstrip("/") for root in environment.workspace_folders),

@@ -292,7 +292,7 @@ class Around:
         self.files = files(self.unknown)
         Path._files = self.files
         Context._around = self
-        self.environment = Environment(self, variables)
+        self.environment = self.files.variables = Environment(self, variables)
         self.interpreter = Interpreter(self, str(job["file"]), base.RECORDER.written)
         self.path: list[Any] = list(folders)
         self._modules: dict[str, Any] = {}
@@ -413,6 +413,8 @@ class Around:
             return function
         if is_program_class(type(function)) or isinstance(function, (modules._Anything, Quiet)):
             return function
+        if isinstance(function, types.MethodWrapperType) and name == "__init__" and is_program_class(type(of)):
+            return function  # no class between this one and `object` has one
         return self._unread_function(name or type(function).__name__)
 
     def _class(self, kind: type) -> Any:
@@ -510,6 +512,8 @@ class Around:
             return self._paths()
         if top in sys.stdlib_module_names:
             return Module(name, self._library(name))
+        if name == "xacro":
+            return Module(name, {})  # whose it is, ROS's or ours, makes no difference
         file = self._file(name)
         if file is not None:
             return self._read(name, *file)
@@ -521,8 +525,6 @@ class Around:
                 return Module(name, dict(contents))
         if name == "yaml":
             return Module(name, self._yaml())
-        if name == "xacro":
-            return Module(name, {})  # where ROS has none, a run has ours
         self.unknown(f"the module {name}", _NOT_FOUND)
         return Module(name, {})
 
@@ -620,6 +622,11 @@ class Around:
         except Raised:
             del self._modules[name]
             raise
+        except NotRead as error:
+            if self.files.is_of_workspace(file):
+                raise
+            self.unknown(f"the module {name}", str(error))
+            self._modules[name] = module = Module(name, {})
         return module
 
     # The standard library
@@ -644,8 +651,7 @@ class Around:
         return Module("os.path", contents)
 
     def _expanduser(self, path: Any) -> Any:
-        text = os.fspath(path)
-        return self.unknown("expanduser()", "the home folder is the user's") if text.startswith("~") else text
+        return self.files.expanduser(os.fspath(path))
 
     def _expandvars(self, path: Any) -> Any:
         text = os.fspath(path)

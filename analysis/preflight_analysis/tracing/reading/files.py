@@ -62,6 +62,8 @@ class Files:
         self.written: dict[str, str] = {}
         self.given: dict[str, str] = {}
         """What earlier runs have written."""
+        self.variables: dict[str, str] = {}
+        """Of the environment, as the program has it."""
 
     def _is_within(self, path: str) -> bool:
         """Whether a path is of the workspace, where links lead nowhere else either, or of a package that is installed:
@@ -169,6 +171,17 @@ class Files:
         if not text.startswith("/") and not MARKS.match(text):
             return self.unknown(f"abspath({readable(text)!r})", "the folder that it is launched in is not known")
         return os.path.normpath(text) if text.startswith("/") else text
+
+    def expanduser(self, text: str) -> Any:
+        """`os.path.expanduser`."""
+        home = dict.get(self.variables, "HOME")
+        if text.startswith("~") and (not home or text[1:2] not in ("", "/")):
+            return self.unknown("expanduser()", "the home folder is the user's")
+        return home.rstrip("/") + text[1:] if home and text.startswith("~") else text
+
+    def is_of_workspace(self, path: str) -> bool:
+        """Whether a file is one of the user's own."""
+        return _is_below(os.path.normpath(path), self._roots)
 
     def text(self, path: Any) -> Any:
         """What a file holds; a stand-in where only a run tells. Raises what `open` does."""
@@ -337,9 +350,7 @@ class Path(PurePosixPath):
 
     def expanduser(self) -> Any:
         """With the home folder of the user."""
-        if not str(self).startswith("~"):
-            return self
-        return type(self)(str(self._files.unknown("expanduser()", "the home folder is the user's")))
+        return type(self)(str(self._files.expanduser(str(self))))
 
     def glob(self, pattern: str) -> Any:
         """Files by a pattern."""
@@ -359,7 +370,7 @@ class Path(PurePosixPath):
     @classmethod
     def home(cls) -> Any:
         """The home folder."""
-        return cls(str(cls._files.unknown("Path.home()", "the home folder is the user's")))
+        return cls(str(cls._files.expanduser("~")))
 
 
 Path.__name__ = Path.__qualname__ = "PosixPath"
