@@ -100,3 +100,27 @@ def generate_launch_description():
     found = _read(tmp_path, text)
     assert not found["unread"]
     assert os.path.realpath(os.environ["HOME"]) + "/maps" in repr(found["actions"])
+
+
+def test_private_names_of_a_class_are_found(tmp_path: Path) -> None:
+    text = """
+
+class Fleet:
+    __prefix = "robot"
+
+    def __init__(self, number):
+        self.__number = number
+
+    def __name(self):
+        return f"{self.__prefix}_{self.__number}"
+
+    def node(self):
+        return Node(package="tools", executable="talker", name=self.__name())
+
+
+def generate_launch_description():
+    return LaunchDescription([Fleet(3).node()])
+"""
+    found = _read(tmp_path, text)
+    assert "error" not in found
+    assert "robot_3" in repr(found["actions"])
