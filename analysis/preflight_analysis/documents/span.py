@@ -230,24 +230,24 @@ def common_suffix(one: str, other: str) -> int:
 class ByteOffsets:
     """Code points to bytes of UTF-8 and back, for what speaks of bytes: near to constant time in any text."""
 
-    __slots__ = ("_marks", "_same", "_text")
+    __slots__ = ("_marks", "_text", "same")
     _STEP = 1024
 
     def __init__(self, text: str) -> None:
         self._text = text
-        self._same = text.isascii()
+        self.same = text.isascii()
         self._marks: list[int] | None = None
 
     def bytes_before(self, offset: int) -> int:
         """How many bytes the text has before a code point."""
-        if self._same:
+        if self.same:
             return offset
         mark = min(offset // self._STEP, len(self._starts) - 1)
         return self._starts[mark] + len(self._encoded(mark * self._STEP, offset))
 
     def offset(self, byte: int) -> int:
         """The code point at a byte; one within a code point stands for the next one."""
-        if self._same:
+        if self.same:
             return min(byte, len(self._text))
         mark = max(0, bisect_right(self._starts, byte) - 1)
         piece = self._encoded(mark * self._STEP, (mark + 1) * self._STEP)[: byte - self._starts[mark]]

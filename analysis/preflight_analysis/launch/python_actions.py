@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch import python_api
 from preflight_analysis.launch.model import Action, ActionAttribute, Literal, Substitution, Typed, Value
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import PythonSource, walk
 
 MAX_DEPTH = 120
 OF_CODE = ("python", "own", "unknown", "branch")
@@ -207,18 +207,17 @@ class _Reader:
             nodes.append(self._source.resolved(nodes[0].func.value))
         if isinstance(nodes[0], (ast.List, ast.Tuple)):
             nodes += [self._source.resolved(each) for each in nodes[0].elts if isinstance(each, ast.Name)]
-        for each in nodes:
-            for found in ast.walk(each):
-                if isinstance(found, ast.Dict):
-                    for key, value in zip(found.keys, found.values, strict=True):
-                        if key is not None:
-                            yield key, value
-                elif isinstance(found, ast.Tuple) and len(found.elts) == 2:
-                    yield found.elts[0], found.elts[1]
-        for each in nodes:
-            for found in ast.walk(each):
-                if isinstance(found, ast.Constant):
-                    yield found, None
+        within = [found for each in nodes for found in walk(each)]
+        for found in within:
+            if isinstance(found, ast.Dict):
+                for key, value in zip(found.keys, found.values, strict=True):
+                    if key is not None:
+                        yield key, value
+            elif isinstance(found, ast.Tuple) and len(found.elts) == 2:
+                yield found.elts[0], found.elts[1]
+        for found in within:
+            if isinstance(found, ast.Constant):
+                yield found, None
 
 
 def _shown(piece: dict[str, Any], arguments: str) -> str:

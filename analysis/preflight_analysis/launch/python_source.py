@@ -53,7 +53,7 @@ class _Program:
     @cached_property
     def nodes(self) -> tuple[ast.AST, ...]:
         """All that is in the pieces."""
-        return tuple(node for piece in self.pieces for node in ast.walk(piece))
+        return tuple(node for piece in self.pieces for node in walk(piece))
 
     @cached_property
     def calls(self) -> dict[int, list[ast.Call]]:
@@ -329,11 +329,31 @@ class PythonSource:
 
     def _offset(self, line: int, column: int) -> int:
         start, end = self.lines.line_start(line - 1), self.lines.line_start(line)
+        if self._bytes.same:
+            return min(start + column, end)
         return min(self._bytes.offset(self._bytes.bytes_before(start) + column), end)
 
 
 def _items(node: ast.Dict) -> Iterator[tuple[ast.expr, ast.expr]]:
     return ((key, value) for key, value in zip(node.keys, node.values, strict=True) if key is not None)
+
+
+def walk(node: ast.AST) -> list[ast.AST]:
+    """As `ast.walk`, sooner, and without what says how a name is used."""
+    found = [node]
+    for each in found:
+        found += _within(each)
+    return found
+
+
+def _within(node: ast.AST) -> list[ast.AST]:
+    found: list[ast.AST] = []
+    for name, value in vars(node).items():
+        if isinstance(value, list):
+            found += [item for item in value if isinstance(item, ast.AST)]
+        elif isinstance(value, ast.AST) and name != "ctx":
+            found.append(value)
+    return found
 
 
 def _in_any_case(body: list[ast.stmt]) -> Iterator[ast.AST]:
@@ -356,7 +376,7 @@ def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
         elif isinstance(each, ast.IfExp):
             waiting.append(each.test)
         elif not isinstance(each, (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)):
-            waiting.extend(ast.iter_child_nodes(each))
+            waiting += _within(each)
 
 
 def last_name(node: ast.expr) -> str:

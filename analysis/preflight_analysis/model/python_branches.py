@@ -11,7 +11,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_api import PROCESSES
-from preflight_analysis.launch.python_source import python_source
+from preflight_analysis.launch.python_source import python_source, walk
 
 _HOLDERS = frozenset({"LaunchDescription", "append", "extend", "add_action"})
 """Calls that change nothing of a node that they get."""
@@ -48,8 +48,11 @@ def made_twice(launch_file: LaunchFile) -> tuple[Twice, ...]:
     for function in source.nodes if source.module is not None else ():
         if not isinstance(function, ast.FunctionDef):
             continue
-        assigned = [n.id for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
-        made = [each for each in _in_block(function.body, (), None) if _is_fixed(each.name, assigned)][:_MOSTPROCESSES]
+        all_made = list(_in_block(function.body, (), None))
+        if not any(each.arms for each in all_made):
+            continue
+        assigned = [n.id for n in walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
+        made = [each for each in all_made if _is_fixed(each.name, assigned)][:_MOSTPROCESSES]
         for one, other in combinations(made, 2):
             outer, inner = sorted((one, other), key=lambda each: len(each.arms))
             below = len(outer.arms) < len(inner.arms) and inner.arms[: len(outer.arms)] == outer.arms

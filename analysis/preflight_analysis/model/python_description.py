@@ -39,6 +39,9 @@ def always_twice(launch_file: LaunchFile) -> tuple[SameName, ...]:
     source = python_source(launch_file.document)
     first: dict[tuple[str, str], ast.Call] = {}
     found: list[SameName] = []
+    written = [key for node in source.nodes if isinstance(node, ast.Call) and (key := _name_of(source, node))]
+    if len(written) == len(set(written)):
+        return ()
     for item in _Description(source).items():
         if item is None:
             first.clear()

@@ -4,6 +4,8 @@ given: plain values stay, substitutions are read as YAML, lists have items of on
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from copy import copy
+from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
@@ -16,6 +18,9 @@ from preflight_analysis.launch.problems import BadValue
 
 EXPECTED = "a bool, a number, a text or a non-empty list of one of them"
 _SCALARS = (bool, int, float, str)
+_SHORT = 100
+"""Characters of a text whose value is remembered: most nodes of a launch are given the same ones."""
+_loaded = lru_cache(maxsize=1000)(load_plain)
 
 
 class _UnknownError(Exception):
@@ -108,7 +113,7 @@ def _yaml(text: str) -> Any:
 
 def _load(text: str) -> Any:
     try:
-        return load_plain(text)
+        return copy(_loaded(text)) if len(text) <= _SHORT else load_plain(text)
     except CONSTRUCTION_ERRORS:
         raise NotOfTypeError("YAML; if it is a text: ParameterValue(..., value_type=str)") from None
 
