@@ -12,7 +12,7 @@ CPP = $(shell git ls-files '*.c' '*.cpp' '*.hpp' ':!fixtures')
 PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_preload.cpp rcl_preload.cpp)
 LUA = $(shell git ls-files '*.lua')
 PROSE = $(shell git ls-files '*.md' ':!fixtures' ':!tests' ':!bench')
-BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
+BENCHMARKS := start catalogue editing completion index python_index growth trace fleet commands launch_files graph
 
 .PHONY: help setup apt demo test quick lint format bench bench-quick corpus ecosystem truth fixes nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
 help:

@@ -22,6 +22,8 @@ KEYS: Mapping[str, str] = {
     "catalogue_worst_ms": "processor time to read the largest part of the catalogue that is read at once",
     "first_answer_s": "from `initialized` to the first hover, in a tree of 500 nodes",
     "index_1000_files_again_s": "the index of a second start, when nothing has changed",
+    "python_index_300_files_s": "the index of 300 Python launch files, read and not run, with nothing kept from before",
+    "python_index_runs_over_reading_ratio": "the same index where each of them is run first, over that",
     "rss_mb_idle": "resident memory of the server that has been initialised",
     "rss_mb_indexed": "... that has indexed 1,000 launch files",
     "rss_mb_after_10000_edits": "... after 10,000 edits in them",

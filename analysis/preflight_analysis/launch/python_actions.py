@@ -43,7 +43,7 @@ class _Reader:
         """The argument of a call that children of a kind stand in."""
 
     def actions(self, records: object, around: Span, parent: _Parent | None, depth: int) -> tuple[Action, ...]:
-        if not isinstance(records, list) or depth > MAX_DEPTH:
+        if not isinstance(records, list) or not records or depth > MAX_DEPTH:
             return ()
         found = [record for record in records if _is_action(record)]
         parts = self._parameter_parts(found, parent)
@@ -52,10 +52,12 @@ class _Reader:
     def _parameter_parts(self, records: list[dict[str, Any]], parent: _Parent | None) -> dict[int, _Parent]:
         """Which item of `parameters=[...]` each dictionary or file is, where the list is written out: `part` says it of
         some of them, otherwise all are there in order."""
-        given = _keywords(parent.call).get("parameters") if parent is not None and parent.part is None else None
-        if parent is None or given is None:
-            return {}
         parameters = [record for record in records if python_api.CHILDREN.get(record["k"]) == "parameters"]
+        if parent is None or parent.part is not None or not parameters:
+            return {}
+        given = _keywords(parent.call).get("parameters")
+        if given is None:
+            return {}
         items = self._source.resolved(given)
         if not isinstance(items, (ast.List, ast.Tuple)):
             return {}
