@@ -25,6 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"environment variable '{name}' is not set{did_you_mean(near)}",
             subject=Subject("variable", name),
             kind="near" if near is not None else "absent",
+            effect=None if problem.fatal else "misbehaves",  # Python writes `None` into a text, and goes on
             candidates=(near,),
             fixes=rename(context, problem.location, name, near) if near is not None else (),
             lack=lack,

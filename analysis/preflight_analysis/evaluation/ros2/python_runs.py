@@ -479,14 +479,16 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
                 state.note_unknown(
                     readable(name), f"the name of the {what} is unresolved", _line(place, run, at, origin)[-1]
                 )
-            case ["variable", str(name), at] if name in state.environment.withheld:
+            case ["variable" | "none", str(name), at] if name in state.environment.withheld:
                 state.withheld_variable(name, name, _line(place, run, at, origin))
-            case ["variable", str(name), at] if name in state.environment.variables:
+            case ["variable" | "none", str(name), at] if name in state.environment.variables:
                 there = _line(place, run, at, origin)[-1]
                 state.note_unknown(name, f"the sandbox is not told what {name} is", there)
             case ["configuration", str(name), at]:
                 undeclared = UndeclaredArgument(name, context.names, context.not_followed)
                 state.problem(undeclared, _line(place, run, at, origin), fatal=undeclared.not_followed is None)
+            case ["none", str(name), at]:
+                state.problem(UnsetVariable(name), _line(place, run, at, origin), fatal=False)
             case [str(what), str(name), at] if what in _MISSED:
                 state.problem(_MISSED[what](name), _line(place, run, at, origin))
 

@@ -82,7 +82,7 @@ class Recorder:
         if value is not None or not self.none:
             return value
         variable, place = next(iter(self.none.items()))
-        self.missed.setdefault(("variable", variable), place)
+        self.missed.setdefault(("none", variable), place)
         self.unknown = True
         return unknown_text(f"the variable {variable}")
 
