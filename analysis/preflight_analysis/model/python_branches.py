@@ -15,7 +15,7 @@ from preflight_analysis.launch.python_source import python_source, walk
 
 _HOLDERS = frozenset({"LaunchDescription", "append", "extend", "add_action"})
 """Calls that change nothing of a node that they get."""
-_MOSTPROCESSES = 500
+_MOST_NODES = 500
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ def made_twice(launch_file: LaunchFile) -> tuple[Twice, ...]:
         if not any(each.arms for each in all_made):
             continue
         assigned = [n.id for n in walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
-        made = [each for each in all_made if _is_fixed(each.name, assigned)][:_MOSTPROCESSES]
+        made = [each for each in all_made if _is_fixed(each.name, assigned)][:_MOST_NODES]
         for one, other in combinations(made, 2):
             outer, inner = sorted((one, other), key=lambda each: len(each.arms))
             below = len(outer.arms) < len(inner.arms) and inner.arms[: len(outer.arms)] == outer.arms
