@@ -11,7 +11,7 @@ from preflight_analysis.findings.finding import Severity
 from preflight_analysis.findings.policy import LIMITS, USUAL
 from tools.ecosystem import DATA, Entry, Project, Snapshot, read_findings, read_projects
 from tools.ecosystem_fixes import NOTHING, Fix, read_fixes
-from tools.truth import PAGE, SEVERITY, Round, judged, page, read_rounds
+from tools.truth import PAGE, SEVERITY, FixList, Round, judged, page, read_fix_lists, read_rounds
 
 PROJECT = Project("o/p", "c0ffee", "2")
 FOUND = Entry("TOP001", "1:1", "a.launch", 7, "'/chater' has no publisher", "warning", "likely")
@@ -26,7 +26,8 @@ def of(*entries: Entry) -> dict[Project, Snapshot]:
 
 
 def test_the_page_is_the_one_that_is_written() -> None:
-    written = page({each: read_findings(each) for each in read_projects()}, read_fixes(), read_rounds())
+    found = {each: read_findings(each) for each in read_projects()}
+    written = page(found, read_fixes(), read_rounds(), read_fix_lists())
     assert PAGE.read_text() == written, "run: make truth"
     assert len(written.splitlines()) <= 60
 
@@ -91,17 +92,21 @@ def test_recall_is_of_what_the_repository_shows() -> None:
     assert "In 2 further fixes nothing in the repository shows the mistake; found above a hint: 1." in text
 
 
+def test_what_a_list_found_when_it_was_new_is_kept() -> None:
+    known = FixList("first", "wiring", "40", "10", "38", "30", "", "")
+    text = page({}, [], [], [known, known._replace(list="second", repositories="9", code="f00d")])
+    assert (
+        "When the second list was new (40 fixes of 9 repositories, code f00d), 10 of 38 (26 %) of those that the "
+        "repository shows were an error or a warning." in text
+    )
+    assert "the first list" not in text
+
+
 def test_all_families_and_kinds_fit_the_page() -> None:
     families = {each.stem[:3] for each in (PAGE.parent / "rules").glob("*[0-9].md")}
     entries = [replace(FOUND, fingerprint=f"{each}:1", rule=f"{each}001", verdict="true") for each in families]
-    assert (
-        len(
-            page(
-                of(*entries), [each._replace(found="info X", date="d") for each in read_fixes()], read_rounds()
-            ).splitlines()
-        )
-        <= 60
-    )
+    fixes = [each._replace(found="info X", date="d") for each in read_fixes()]
+    assert len(page(of(*entries), fixes, read_rounds(), read_fix_lists()).splitlines()) <= 60
 
 
 def test_the_projects_of_a_sample_add_up_to_it() -> None:

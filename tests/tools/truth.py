@@ -2,7 +2,8 @@
 
 Everything in it is in `bench/ecosystem`: verdicts beside the findings of public projects (`findings/*.jsonl`), fixes of
 public histories with what is found before them (`fixes.tsv`), and rounds of projects that were unseen when they were
-checked (`rounds/rounds.tsv`; beside it their projects, what was false there and why, and readings of single rules).
+checked (`rounds/rounds.tsv`; beside it their projects, what was false there and why, readings of single rules, and
+what lists of fixes found when they were new).
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from tools.ecosystem_fixes import NOTHING, Fix, read_fixes
 PAGE = Path(__file__).parents[2] / "docs" / "truth.md"
 SEVERITY = PAGE.with_name("severity.md")
 _SEVERITIES = {"error": "errors", "warning": "warnings", "info": "information"}
-_ROUNDS = 9
+_ROUNDS = 7
 """How many rows of samples are shown, the newest."""
 _TRUE = ("true", "trivial")
 
@@ -45,10 +46,27 @@ class Round(NamedTuple):
     warnings_true: str
 
 
+class FixList(NamedTuple):
+    """A row of `fix_lists.tsv`: fixes that were chosen by their differences, before anything was run on them.
+
+    `unseen` of `checked_unseen` were found when the list was new; of a list with a `code`, as an error or a warning, of
+    those that the repository shows.
+    """
+
+    list: str
+    kind: str
+    fixes: str
+    unseen: str
+    checked_unseen: str
+    now: str
+    repositories: str
+    code: str
+
+
 def main() -> int:
     """Write the pages."""
     found = {each: read_findings(each) for each in read_projects()}
-    PAGE.write_text(page(found, read_fixes(), read_rounds()))
+    PAGE.write_text(page(found, read_fixes(), read_rounds(), read_fix_lists()))
     SEVERITY.write_text(policy_page.page(judged(found.values())))
     return 0
 
@@ -70,7 +88,15 @@ def read_rounds() -> list[Round]:
         return [Round(**row) for row in csv.DictReader(table, delimiter="\t")]
 
 
-def page(found: Mapping[Project, Snapshot], fixes: Sequence[Fix], rounds: Sequence[Round]) -> str:
+def read_fix_lists() -> list[FixList]:
+    """The lists of fixes, the oldest first."""
+    with (DATA / "rounds" / "fix_lists.tsv").open(newline="") as table:
+        return [FixList(**row) for row in csv.DictReader(table, delimiter="\t")]
+
+
+def page(
+    found: Mapping[Project, Snapshot], fixes: Sequence[Fix], rounds: Sequence[Round], lists: Sequence[FixList] = ()
+) -> str:
     """The whole page, of at most 60 lines."""
     return "\n".join(
         [
@@ -82,7 +108,7 @@ def page(found: Mapping[Project, Snapshot], fixes: Sequence[Fix], rounds: Sequen
             *_unseen(rounds),
             "",
             "## How many mistakes are found",
-            *_recall([each for each in fixes if each.found]),
+            *_recall([each for each in fixes if each.found], [each for each in lists if each.code]),
             "",
         ]
     )
@@ -138,7 +164,7 @@ def _unseen(rounds: Sequence[Round]) -> list[str]:
     ]
 
 
-def _recall(fixes: Sequence[Fix]) -> list[str]:
+def _recall(fixes: Sequence[Fix], lists: Sequence[FixList]) -> list[str]:
     by_kind = defaultdict(list)
     hidden = [each for each in fixes if each.visible == "no"]
     for fix in fixes:
@@ -154,8 +180,14 @@ def _recall(fixes: Sequence[Fix]) -> list[str]:
         f"Commits that fix a launch configuration were checked {_when((each.code, each.date) for each in fixes)}, "
         "before and after the fix.",
         "The worst finding that goes away with the fix counts, unless a reader saw that it has another cause "
-        f"({sum(each.mistake == 'no' for each in fixes)}). Unless its code is 0f6f6758, a fix "
-        "was known, and the causes of misses were fixed before.",
+        f"({sum(each.mistake == 'no' for each in fixes)}). The table has lists of fixes together, most of them known: "
+        "causes of misses were fixed before.",
+        " ".join(
+            f"When the {each.list} list was new ({each.fixes} fixes of {each.repositories} repositories, code "
+            f"{each.code}), {_share(int(each.unseen), int(each.checked_unseen))} of those that the repository shows were "
+            "an error or a warning."
+            for each in lists[::-1]
+        ),
         f"In {len(hidden)} further fixes nothing in the repository shows the mistake; "
         f"found above a hint: {sum(each.severity not in ('hint', NOTHING) for each in hidden)}.",
         "",
