@@ -184,8 +184,8 @@ def _recall(fixes: Sequence[Fix], lists: Sequence[FixList]) -> list[str]:
         "causes of misses were fixed before.",
         " ".join(
             f"When the {each.list} list was new ({each.fixes} fixes of {each.repositories} repositories, code "
-            f"{each.code}), {_share(int(each.unseen), int(each.checked_unseen))} of those that the repository shows were "
-            "an error or a warning."
+            f"{each.code}), {_share(int(each.unseen), int(each.checked_unseen))} of those that the repository shows "
+            "were an error or a warning."
             for each in lists[::-1]
         ),
         f"In {len(hidden)} further fixes nothing in the repository shows the mistake; "
