@@ -4,13 +4,10 @@ an argument names them, the launch file could not be followed."""
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping
-from pathlib import PurePath
 
 import yaml
 
-from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, span_of
@@ -25,6 +22,13 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.loose_param_files import (
+    YAML_SUFFIXES,
+    is_in_their_folder,
+    loose_param_files,
+    param_files_around,
+    yaml_files_of,
+)
 from preflight_analysis.model.name_index import named_in, sources_in
 from preflight_analysis.model.names_elsewhere import joint_around
 from preflight_analysis.model.params_in_sources import meant_in_one_file
@@ -40,19 +44,10 @@ from preflight_analysis.rules import prm018_listed_not_configured as prm018
 from preflight_analysis.rules import prm022_parameter_of_plugin as prm022
 from preflight_analysis.rules import prm023_parameter_not_in_sources as prm023
 
-_SUFFIXES = (".yaml", ".yml")
-_FOLDERS = frozenset({"config", "configs", "param", "params", "parameters", "cfg", "launch"})
-"""Where packages have their parameter files, below other folders or not."""
-_NOT_OURS = frozenset({"test", "tests", "build", "install", "log"})
-_ABOVE = 3
-"""Folders above a package that may be those of its repository."""
-_MOST = 200
-"""Files of one package that are read."""
-_LONGEST = 200_000
-"""Characters of one."""
-_MAY_BE_MARK = re.compile(r"^[ \t]+ro?s?_*pa?ra?m\w*:", re.MULTILINE)
 _JOINTS = ("joint", "joints")
 _LOOSE = doubts(NOT_GIVEN=True)
+_MOST = 200
+"""Mappings of a file that are looked into."""
 _TOGETHER = 4
 """Parameters that stand together, of which most are those of one source."""
 
@@ -71,24 +66,11 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             yield from _of_ros1(context, share)
         return
     given = first_getters(context).keys()
-    files = _files_around(context, package.share)
+    files = param_files_around(context, package.share)
     for path in loose_param_files(context):
         document = context.disk.text(path)
         if isinstance(document, Document):
             yield from _of_ros2(context, document, package.share, files | given)
-
-
-def loose_param_files(context: Context) -> list[str]:
-    """The parameter files of the package of ROS 2 that the launch file is in which no node of the launch gets."""
-    package = package_around(context.environment, context.root)
-    if package is None or context.environment.is_installed(package) or not context.tree.ros.own_parameters:
-        return []
-    return sorted(_files_around(context, package.share) - first_getters(context).keys())
-
-
-def _files_around(context: Context, share: str) -> frozenset[str]:
-    folders = _folders(context, share)
-    return frozenset(path for folder, base in folders for path in _param_files(context.disk.db, folder, base))
 
 
 def findings_of_param_file(context: Context) -> Iterator[Finding]:
@@ -100,12 +82,12 @@ def findings_of_param_file(context: Context) -> Iterator[Finding]:
         return
     share = package.share if package is not None else os.path.dirname(path)
     # Others may be of programs that read another YAML.
-    is_likely = MARK in document.text or "param" in os.path.basename(path) or _is_in_their_folder(path, share)
+    is_likely = MARK in document.text or "param" in os.path.basename(path) or is_in_their_folder(path, share)
     if MARK in document.text or context.tree.ros.own_parameters:
         file = read_param_file(document)
         if MARK in document.text or (is_likely and (file.problem is not None or file.misspelt)):
             around = files_in(context.disk, os.path.dirname(path), deep=False)
-            beside = (each for each in around if each.endswith(_SUFFIXES))
+            beside = (each for each in around if each.endswith(YAML_SUFFIXES))
             yield from _of_ros2(context, document, share, beside)
         return
     try:
@@ -178,7 +160,7 @@ def _of_ros2(context: Context, document: Document, share: str, beside: Iterable[
 
 def _of_ros1(context: Context, share: str) -> Iterator[Finding]:
     loaded = {param.place.file for param in context.tree.all_params}
-    for path in _yaml_files(context.disk.db, share):
+    for path in yaml_files_of(context.disk.db, share):
         document = context.disk.text(path)
         if isinstance(document, Document):
             yield from () if path in loaded else _unknown_names(context, share, document)
@@ -271,50 +253,8 @@ def _is_in_base(context: Context, files: Iterable[str | None], missing: prm018.M
     )
 
 
-def _folders(context: Context, share: str) -> Iterator[tuple[str, str]]:
-    """That of the package, and those of parameter files beside the packages of its repository; what they are below."""
-    yield share, share
-    workspace = (context.environment.workspace or "").rstrip("/")
-    above = os.path.dirname(share)
-    for _ in range(_ABOVE):
-        if not workspace or not f"{above}/".startswith(f"{workspace}/"):
-            return
-        found = [os.path.join(above, name) for name in context.disk.names(above) if name in _FOLDERS]
-        yield from ((path, above) for path in found if not context.disk.is_link(path))
-        above = os.path.dirname(above)
-
-
 @query
 def _read_by_programs(db: Database, folder: str) -> frozenset[str]:
     """The YAML files that programs of a package name which read YAML themselves."""
     found = (named_in(db, path, "yaml-file") for path in sources_in(db, folder) or ())
     return frozenset(each.text for names in found for each in names)
-
-
-@query
-def _param_files(db: Database, folder: str, base: str) -> tuple[str, ...]:
-    """Those below a folder that may be parameter files, by how they are called from `base`."""
-    return tuple(path for path in sorted(files_in(Disk(db), folder, deep=True)) if _is_one(db, path, base))[:_MOST]
-
-
-@query
-def _yaml_files(db: Database, folder: str) -> tuple[str, ...]:
-    """Those below a package of ROS 1 that may have parameters."""
-    disk = Disk(db)
-    paths = (path for path in sorted(files_in(disk, folder, deep=True)) if _is_in_their_folder(path, folder))
-    texts = ((path, disk.text(path)) for path in paths)
-    return tuple(path for path, text in texts if isinstance(text, Document) and len(text.text) <= _LONGEST)[:_MOST]
-
-
-def _is_in_their_folder(path: str, base: str) -> bool:
-    folders = frozenset(PurePath(os.path.relpath(path, base)).parts[:-1])
-    return path.endswith(_SUFFIXES) and not folders.isdisjoint(_FOLDERS) and folders.isdisjoint(_NOT_OURS)
-
-
-@query
-def _is_one(db: Database, path: str, base: str) -> bool:
-    if not _is_in_their_folder(path, base):
-        return False
-    document = Disk(db).text(path)
-    text = document.text if isinstance(document, Document) else ""
-    return len(text) <= _LONGEST and "$(" not in text and (MARK in text or _MAY_BE_MARK.search(text) is not None)

@@ -137,6 +137,7 @@ RULE = Rule(
         Reason.LATER,
         Reason.NOT_GIVEN,
     ),
+    of_param=True,
     what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. A value that "
     "several nodes share is not reported if one of them declares it.",
     why="The client libraries ignore the value without an error, and the node uses its default.",

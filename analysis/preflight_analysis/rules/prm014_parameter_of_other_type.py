@@ -153,6 +153,7 @@ RULE = Rule(
     effect="stops-node",
     kind="conflict",
     sometimes=(*OF_REFUSALS, Reason.NOT_SET, Reason.MEANT_FOR_OTHER, Reason.NOT_GIVEN),
+    of_param=True,
     what="Checks for a parameter whose type differs from the type that its node declares. An integer is not a "
     "double, and an empty list has no type. A text of the launch file may arrive with another type.",
     why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes exit.",

@@ -81,6 +81,7 @@ RULE = Rule(
     effect="stops-node",
     kind="invalid",
     sometimes=(*OF_REFUSALS, Reason.NOT_GIVEN),
+    of_param=True,
     what="Checks for a number outside of the range, or between the steps, of the descriptor with which the node "
     "declares the parameter.",
     why="rclcpp and rclpy raise InvalidParameterValueException in `declare_parameter`, and most nodes exit.",

@@ -256,6 +256,7 @@ RULE = Rule(
     kind="near",
     always=(Reason.UNSEEN,),
     sometimes=(Reason.NOT_GIVEN,),
+    of_param=True,
     what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, if "
     "the package has one of a similar name. The types are those of plugin descriptions or of the catalogue. Other "
     "parameters that choose plugins count, too, such as `robot_model_type` of AMCL and `plugin_allowlist` of MAVROS. "

@@ -53,8 +53,6 @@ _OF_FILES: Mapping[FileKind, tuple[Callable[[Context], Iterable[Finding]], ...]]
     "parameter file": (findings_of_param_file,),
 }
 """What is said of a file for itself, beside what rules say of its package. The root of the context is the file."""
-_OF_PARAMS = ("PRM013", "PRM014", "PRM017", "PRM021")
-"""Rules that speak of one parameter of a node, whatever else there is."""
 _RULE_MODULE = re.compile(r"[a-z]{3}\d{3}_")
 
 
@@ -165,7 +163,7 @@ def found_in_description(disk: Disk, environment: Environment, path: str) -> Ite
 def found_in_supposed(context: Context, path: str) -> Iterator[Finding]:
     """What the rules of single parameters say of a file, in a launch that nobody has written and that gives it to the
     nodes of its sections: of names that are like none that a node declares they say nothing, as it may be another."""
-    found, _ = _found(context, [rule for rule in all_rules() if rule.id in _OF_PARAMS], None)
+    found, _ = _found(context, [rule for rule in all_rules() if rule.of_param], None)
     for each in found:
         if each.location.file == path and each.kind != "absent":
             related = tuple(one for one in each.related if one.location.file != context.root)

@@ -44,6 +44,8 @@ class Rule(RuleDescription):
     `of_package`: what it says of one package of the workspace, whatever launch starts its nodes.
     `of_description`: what it says of one file of robot descriptions or worlds, by its path, whatever launch reads it.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
+    `of_param`: it speaks of one parameter of a node, whatever else there is: also of a file that no launch is known to
+    give to its nodes.
     `of_robot`: it speaks of what a robot description has and lacks as a whole: where that has parts from the catalogue
     it is not certain.
     `left_out` is for the one rule that counts the findings of a file which are too many to be shown.
@@ -60,6 +62,7 @@ class Rule(RuleDescription):
     every_root: bool = False
     generations: tuple[int, ...] = (1, 2)
     in_branches: bool = False
+    of_param: bool = False
     of_robot: bool = False
     references: tuple[str, ...] = ()
     since: str = "0.1.0"

@@ -49,8 +49,8 @@ from preflight_analysis.launch.recognize import FileKind
 from preflight_analysis.model.behavior_trees import trees_of
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installation import build_files_of, packages_in
+from preflight_analysis.model.loose_param_files import loose_param_files
 from preflight_analysis.robot.sources import documents_of
-from preflight_analysis.rules.loose_param_files import loose_param_files
 from preflight_analysis.rules.registry import (
     all_rules,
     found_in_branch,
