@@ -131,3 +131,15 @@ def test_a_package_for_both_generations_is_that_of_ros_2(tmp_path: Path, value: 
     assert {name: each.file for name, each in found.scripts.items()} == {"p_node": str(tmp_path / "p/b.py")}
     assert found.data == {"a.launch.py": str(tmp_path / "launch/a.launch.py")}
     assert (found.complete, found.all_programs) == (known, known)
+
+
+@pytest.mark.parametrize("call", ["setup(", "_ = setup(", "done = setuptools.setup("])
+def test_what_is_made_of_the_result_of_setup_does_not_matter(call: str) -> None:
+    text = "import setuptools\nfrom setuptools import setup\n" + ENTRY.partition("\n")[2].replace("setup(", call, 1)
+    build = read_python_build("/p", "p", disk_with({"/p/setup.py": text.replace("data_files=d, ", "")}))
+    assert (list(build.scripts), build.complete, build.all_programs) == (["a"], True, True)
+
+
+def test_without_a_call_of_setup_nothing_is_known_to_be_all() -> None:
+    build = read_python_build("/p", "p", disk_with({"/p/setup.py": "import own_setup\nown_setup.run()\n"}))
+    assert (build.complete, build.all_programs) == (False, False)

@@ -10,7 +10,7 @@ from preflight_analysis.workspace.workspace import Workspace
 from support.check import findings_of
 from support.demo_package import judge
 from support.package_elsewhere import analysed
-from support.packaging import CMAKE, findings
+from support.packaging import CMAKE, PYTHON, SETUP, findings
 
 
 @pytest.mark.parametrize(
@@ -302,6 +302,25 @@ def test_a_package_that_has_launch_files_alone(tmp_path: Path, lists: str, said:
     launch = '<launch><node pkg="arm" exec="reader"/></launch>'
     found = findings(tmp_path, {**CMAKE, "CMakeLists.txt": lists, "launch/arm.launch.xml": launch}, "PKG002")
     assert [each.message.startswith(start) for each, start in zip(found, said, strict=True)] == [True] * len(said)
+
+
+@pytest.mark.parametrize(
+    ("setup", "said"),
+    [
+        (SETUP, 1),
+        (SETUP.replace("setup(", "_ = setup(").replace("'driver = ", "'reader = "), 0),
+        ("import own\nown.setup_up()\n", 0),
+        (None, 0),
+    ],
+)
+def test_a_package_in_python_without_executables(tmp_path: Path, setup: str | None, said: int) -> None:
+    """https://github.com/onkoe/auto_ros2; without a setup.py, whatever pyproject.toml says."""
+    launch = '<launch><node pkg="arm" exec="reader"/></launch>'
+    files = {**PYTHON, "launch/arm.launch.xml": launch}
+    files = (
+        {**files, "setup.py": setup} if setup else {name: text for name, text in files.items() if name != "setup.py"}
+    )
+    assert len(findings(tmp_path, files, "PKG002")) == said
 
 
 IN_BIN = "error CMakeLists.txt of package 'arm' builds it and installs it in bin, not in lib/arm"

@@ -81,6 +81,24 @@ def test_what_only_a_loader_of_objects_reads_is_no_mistake(harness: ReadingHarne
     assert ("LCH032" in [rule for rule, _ in found]) == fails
 
 
+@pytest.mark.parametrize("text", ["x: 1", "x: !degrees 90"])
+def test_a_loader_may_get_tags_of_its_own(harness: ReadingHarness, text: str) -> None:
+    """https://github.com/Elite-Robots/Elite_Robots_CS_ROS2_Driver, as many of MoveIt's launch files have it."""
+    program = (
+        "import yaml\n"
+        "def load(text):\n"
+        "    try:\n"
+        "        yaml.SafeLoader.add_constructor('!degrees', lambda loader, node: 1.5)\n"
+        "    except Exception:\n"
+        "        raise Exception('yaml support not available')\n"
+        "    return yaml.safe_load(text)\n"
+    )
+    item = f"load('{text}') and Node(package='bot', executable='talker')"
+    assert not [
+        rule for rule, _ in _found(harness, "a.launch.py", program + HEAD.replace("ITEM", item)) if rule == "LCH032"
+    ]
+
+
 def test_an_exception_is_at_the_line_of_the_name(harness: ReadingHarness) -> None:
     text = (
         "from launch import LaunchDescription\n\n\ndef generate_launch_description():\n    return LaunchDescription([\n"

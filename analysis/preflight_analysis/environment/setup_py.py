@@ -135,7 +135,8 @@ def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
     paths = (os.path.normpath(os.path.join(folder, program)) for program in programs[:_MAX_FILES])
     by_name = {os.path.basename(path): path for path in paths if disk.is_file(path)}
     called = found.called(_folders_from_cfg(disk.content(os.path.join(folder, "setup.cfg")))) if found else None
-    return PythonBuild(scripts, by_name, data, found is None or found.all_programs, complete, file, called)
+    all_programs = found is None or (found.all_programs and called is not None)
+    return PythonBuild(scripts, by_name, data, all_programs, complete and called is not None, file, called)
 
 
 def _entry_point(folder: str, name: str, target: str, line: int, disk: Disk) -> EntryPoint:
@@ -236,6 +237,8 @@ class _Setup:
             target = statement.targets[0]
             if isinstance(target, ast.Name):
                 self._assign(target.id, statement.value)
+            if isinstance(statement.value, ast.Call):
+                self._call(statement.value)
         elif isinstance(statement, ast.AugAssign) and isinstance(statement.target, ast.Name):
             self._augment(statement)
         elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):

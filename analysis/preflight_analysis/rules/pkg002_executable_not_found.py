@@ -8,7 +8,7 @@ from typing import NamedTuple
 from preflight_analysis.environment.build import LISTS, Made
 from preflight_analysis.environment.git_history import Change, formerly_named
 from preflight_analysis.environment.git_ignored import is_ignored
-from preflight_analysis.environment.installed_paths import cmake_build
+from preflight_analysis.environment.installed_paths import cmake_build, python_build
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
@@ -187,7 +187,9 @@ def _is_understood(context: Context, package: str) -> bool:
     known = context.environment.packages.get(package)
     if known is None or context.environment.is_installed(known):
         return False
-    return known.build_type == "ament_python" or cmake_build(context.disk, known).complete
+    if known.build_type == "ament_python":
+        return python_build(context.disk, known).called is not None
+    return cmake_build(context.disk, known).complete
 
 
 def _is_of_workspace(context: Context, package: str) -> bool:

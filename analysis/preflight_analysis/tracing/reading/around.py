@@ -63,8 +63,8 @@ from preflight_analysis.tracing.reading.values import (
 )
 
 _OURS = __name__.rpartition(".")[0]
+_OF_TAGS = ("add_constructor", "add_multi_constructor", "add_implicit_resolver", "add_path_resolver")
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_SAFE = "safe loader"
 _MAX_YAML = 300_000
 _MAX_EXPRESSION = 5_000
 _MAX_MANIFEST = 100_000
@@ -297,6 +297,7 @@ class Around:
         self.path: list[Any] = list(folders)
         self._modules: dict[str, Any] = {}
         self._more: dict[str, Any] = {}
+        self._safe_loader, self._has_own_tags = self._loader("SafeLoader"), False
         self._builtins = self._make_builtins()
 
     # What is not known
@@ -807,8 +808,8 @@ class Around:
 
     def _yaml(self) -> dict[str, Any]:
         return {
-            **dict.fromkeys(("SafeLoader", "CSafeLoader"), _SAFE),
-            **dict.fromkeys(("FullLoader", "Loader", "UnsafeLoader"), "loader"),
+            **dict.fromkeys(("SafeLoader", "CSafeLoader"), self._safe_loader),
+            **dict.fromkeys(("FullLoader", "Loader", "UnsafeLoader"), self._loader("Loader")),
             "safe_load": self.load_yaml,
             "load": lambda stream, Loader=None: self._load_yaml_by(Loader, stream),  # noqa: N803
             "full_load": lambda stream: self._load_yaml_by(None, stream),
@@ -816,6 +817,13 @@ class Around:
             "dump": self.dump_yaml,
             "safe_dump": self.dump_yaml,
         }
+
+    def _loader(self, name: str) -> Module:
+        return Module(f"yaml.{name}", dict.fromkeys(_OF_TAGS, self._read_tags))
+
+    def _read_tags(self, *_args: Any) -> None:
+        """What the program makes of a tag of its own."""
+        self._has_own_tags = True
 
     def load_yaml(self, stream: Any) -> Any:
         """`yaml.safe_load`."""
@@ -827,7 +835,12 @@ class Around:
         self.interpreter.step(len(text) // 20)
         if _is_deep(text):
             return self.unknown("yaml.safe_load()", "the text is too deep")
-        value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a safe one
+        try:
+            value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a safe one
+        except yaml.constructor.ConstructorError:
+            if self._has_own_tags:
+                return self.unknown("yaml.safe_load()", "the program says what its tags are")
+            raise
         self.interpreter.step(whole(value))
         return value
 
@@ -836,7 +849,7 @@ class Around:
         try:
             return self.load_yaml(stream)
         except yaml.constructor.ConstructorError:
-            if loader == _SAFE:
+            if loader is self._safe_loader:
                 raise
             return self.unknown("yaml.load()", "it makes objects of Python")
 
