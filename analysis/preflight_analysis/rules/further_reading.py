@@ -17,6 +17,9 @@ BEHAVIOR_TREES = (
 CLOCK = f"[ROS 1: Clock]({_WIKI}/Clock)"
 CLOCK_AND_TIME = f"[ROS 2 design: Clock and time]({_DESIGN}/clock_and_time.html)"
 COMMAND_LINE = f"[ROS 2 design: ROS command line arguments]({_DESIGN}/ros_command_line_arguments.html)"
+CMAKE_TARGETS = (
+    "[CMake: Binary targets](https://cmake.org/cmake/help/latest/manual/cmake-buildsystem.7.html#binary-targets)"
+)
 CMAKE_VARIABLES = "[CMake: Variables](https://cmake.org/cmake/help/latest/manual/cmake-language.7.html#variables)"
 COMPOSITION = f"[ROS 2: About composition]({_DOCS}/Concepts/Intermediate/About-Composition.html)"
 CONTROLLER_MANAGER = (
