@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from support.check import apply, check
+from support.packaging import LAUNCH, of_packages, said
+from support.unbuilt_packages import manifest
 
 
 def test_a_slip_of_a_released_package_of_the_workspace_and_of_the_system() -> None:
@@ -92,3 +96,57 @@ def test_a_name_of_the_system_with_another_short_word_is_none_of_a_slip() -> Non
         //- /robot/package.xml
         <package><name>robot</name><depend>libdmtx-dev</depend></package>
     """)
+
+
+LAUNCHED = {"launch/arm.launch.xml": LAUNCH}
+OF_ROS2 = "<export><build_type>ament_cmake</build_type></export></package>"
+
+
+def test_a_manifest_of_a_package_that_has_no_launch_file(tmp_path: Path) -> None:
+    files = {"package.xml": f"<package><name>arm</name><depend>geometry_msg</depend>{OF_ROS2}"}
+    assert of_packages(tmp_path, files, "PKG007") == [
+        "package.xml:1 warning unknown package 'geometry_msg': not in the workspace nor any distribution; did you mean "
+        "'geometry_msgs'?"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("build_type", "old", "new", "at", "other"),
+    [
+        ("ament_cmake", "roscpp", "rclcpp", 2, 1),
+        ("ament_python", "tf", "tf2_ros", 2, 1),
+        ("ament_cmake", "message_generation", "rosidl_default_generators", 2, 1),
+        ("catkin", "rclpy", "rospy", 1, 2),
+    ],
+)
+def test_a_package_of_the_other_generation(
+    tmp_path: Path, build_type: str, old: str, new: str, at: int, other: int
+) -> None:
+    text = manifest("arm", build_type).replace("</name>", f"</name>\n<depend>{old}</depend>")
+    assert of_packages(tmp_path, {"package.xml": text}, "PKG007") == [
+        f"package.xml:2 warning '{old}' is a package of ROS {other}, and {build_type} builds 'arm' for ROS {at}; use "
+        f"'{new}'"
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "text",
+    [
+        f'<depend condition="$ROS_VERSION == 1">roscpp</depend>{OF_ROS2}',
+        "<depend>roscpp</depend><export><build_type condition='$ROS_VERSION == 1'>catkin</build_type>"
+        "<build_type condition='$ROS_VERSION == 2'>ament_cmake</build_type></export></package>",
+        f"<depend>std_msgs</depend><depend>tf2_ros</depend>{OF_ROS2}",
+        f"<depend>hector_slam</depend>{OF_ROS2}",
+    ],
+)
+def test_both_generations_and_what_has_no_successor(tmp_path: Path, text: str) -> None:
+    assert said(tmp_path, {**LAUNCHED, "package.xml": f"<package><name>arm</name>{text}"}, "PKG007") == []
+
+
+@pytest.mark.silent
+def test_a_package_of_the_workspace_with_a_name_of_ros1(tmp_path: Path) -> None:
+    (tmp_path / "src/tf").mkdir(parents=True)
+    (tmp_path / "src/tf/package.xml").write_text(manifest("tf", "ament_cmake"))
+    files = {**LAUNCHED, "package.xml": f"<package><name>arm</name><depend>tf</depend>{OF_ROS2}"}
+    assert said(tmp_path, files, "PKG007") == []

@@ -85,10 +85,19 @@ def findings(folder: Path, files: Mapping[str, str | None], rule: str) -> list[F
 
 def said(folder: Path, files: Mapping[str, str | None], rule: str) -> list[str]:
     """Likewise as texts: `file:line severity message`."""
-    texts = []
-    for finding in findings(folder, files, rule):
-        path = Path(finding.location.file)
-        line = path.read_text().count("\n", 0, finding.location.span.start) + 1
-        name = path.relative_to(folder / "src" / "arm")
-        texts.append(f"{name}:{line} {finding.severity} {finding.message}")
-    return texts
+    return [_text(folder, finding) for finding in findings(folder, files, rule)]
+
+
+def of_packages(folder: Path, files: Mapping[str, str | None], rule: str) -> list[str]:
+    """What the rule says of the package, as such texts, where no launch file leads to it."""
+    package = lay_out(folder, files)
+    environment = detect_environment(str(folder), {}, root=str(folder / "nothing"))
+    workspace = Workspace(environment, Sources(), str(folder))
+    found, _ = workspace.findings_of_packages([environment.packages[package.name]])
+    return [_text(folder, finding) for finding in found if finding.rule == rule]
+
+
+def _text(folder: Path, finding: Finding) -> str:
+    path = Path(finding.location.file)
+    line = path.read_text().count("\n", 0, finding.location.span.start) + 1
+    return f"{path.relative_to(folder / 'src' / 'arm')}:{line} {finding.severity} {finding.message}"

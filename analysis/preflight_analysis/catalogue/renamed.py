@@ -1,4 +1,4 @@
-"""Nodes that have another name, or another package, in the distribution that the catalogue knows.
+"""Nodes and packages that have another name, or another package, in the distribution that the catalogue knows.
 
 By what the projects say themselves: scripts of ROS 2 have been installed without `.py` since Galactic (`spawner.py`,
 `view_frames.py`); nav2's migration guide (`configuration/migration/Galactic.rst`: recoveries server to behavior
@@ -52,6 +52,35 @@ _OF_ROS1: Mapping[tuple[str, str], tuple[str, str]] = {
 }
 _OF_NODELETS: Mapping[str, str] = {"pcl": "pcl_ros"}
 """Packages of nodelets whose names begin with another word than theirs."""
+_SUCCESSORS: Mapping[str, str] = {
+    "actionlib": "rclcpp_action",
+    "amcl": "nav2_amcl",
+    "catkin": "ament_cmake",
+    "costmap_2d": "nav2_costmap_2d",
+    "eigen_conversions": "tf2_eigen",
+    "gazebo_ros_control": "gazebo_ros2_control",
+    "map_server": "nav2_map_server",
+    "message_generation": "rosidl_default_generators",
+    "message_runtime": "rosidl_default_runtime",
+    "move_base": "nav2_bringup",
+    "nav_core": "nav2_core",
+    "nodelet": "rclcpp_components",
+    "rosbag": "rosbag2",
+    "roscpp": "rclcpp",
+    "roslaunch": "ros2launch",
+    "rospy": "rclpy",
+    "rostest": "launch_testing_ros",
+    "rviz": "rviz2",
+    "tf": "tf2_ros",
+}
+"""Packages of ROS 1, and those of ROS 2 that have their place (https://docs.ros.org/en/rolling/How-To-Guides/
+Migrating-from-ROS1.html, and the migration guides of Nav2 and gazebo_ros2_control)."""
+_PREDECESSORS: Mapping[str, str] = {new: old for old, new in _SUCCESSORS.items()}
+
+
+def in_generation(package: str, generation: int) -> str | None:
+    """The package of a generation of ROS that has the place of one of the other; None where none is known."""
+    return (_PREDECESSORS if generation == 1 else _SUCCESSORS).get(package)
 
 
 def other_names(package: str, kind: str, name: str, distro: str) -> Iterator[tuple[str, str]]:

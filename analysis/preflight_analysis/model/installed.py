@@ -18,10 +18,11 @@ from preflight_analysis.catalogue.released import (
 )
 from preflight_analysis.environment.git_submodules import Submodule, left_submodule, left_submodules_below
 from preflight_analysis.environment.installed_paths import installs_more, located, made_by_build, package_around
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST
 from preflight_analysis.findings.lack import INSTALL, Lack
-from preflight_analysis.incremental.derived import derived
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import is_slip, is_slip_of_words, nearest, nearest_slip
 from preflight_analysis.model.said import missing_module
@@ -114,22 +115,27 @@ def _distribution(context: Context) -> str | None:
 def near_package(context: Context, name: str) -> str | None:
     """A package that is here, or that a distribution has released, of whose name this is a slip. A released name is
     none."""
-    generation = context.tree.generation
+    return near_package_in(context.disk.db, context.environment, context.tree.generation, name)
+
+
+@query
+def near_package_in(db: Database, environment: Environment, generation: int, name: str) -> str | None:
+    """Likewise without a launch."""
     if distributions_with(name, generation):
         return None
-    near = nearest(name, context.environment.packages) or _near_dependency(context, name)
+    near = nearest(name, environment.packages) or _near_dependency(db, environment, generation, name)
     if near is None or not is_slip_of_words(name, near):
         released = nearest_released(name, generation, 1)
-        near = next((each for each in released if is_slip(name, each) and _differ_in_words_of(_LONG, name, each)), None)
-    return None if near is None or is_of_family(context, name, near) else near
+        near = next((each for each in released if is_slip(name, each) and _is_meant(name, each)), None)
+    return None if near is None or is_of_family_in(db, environment, generation, name, near) else near
 
 
-def _near_dependency(context: Context, name: str) -> str | None:
+def _near_dependency(db: Database, environment: Environment, generation: int, name: str) -> str | None:
     """The package of which it is a slip, released and not here, that a manifest of the workspace names; none for what a
     manifest names as well."""
-    if name in _absent_dependencies(context):
+    if name in _absent_dependencies(db, environment):
         return None
-    near = nearest(name, _released_dependencies(context))
+    near = nearest(name, _released_dependencies(db, environment, generation))
     return near if near is not None and _differ_in_words_of(_SHORT, name, near) else None
 
 
@@ -137,42 +143,44 @@ def is_of_family(context: Context, name: str, near: str) -> bool:
     """Whether the word by which a package's name differs from another's is in the name of a further package that the
     workspace needs and nobody knows, or of a folder around a package (`smarc_msgs` in `smarc_scenarios`): those are of
     a repository that is not here. Nobody makes the same slip twice."""
+    return is_of_family_in(context.disk.db, context.environment, context.tree.generation, name, near)
+
+
+def is_of_family_in(db: Database, environment: Environment, generation: int, name: str, near: str) -> bool:
+    """Likewise without a launch."""
     words = set(name.split("_")) - set(near.split("_"))
-    others = _unknown_dependencies(context) - {name}
-    in_other = any(not words.isdisjoint(other.split("_")) for other in others)
-    return in_other or not words.isdisjoint(words_of_folders(context))
+    unknown = _absent_dependencies(db, environment) - _released_dependencies(db, environment, generation)
+    in_other = any(not words.isdisjoint(other.split("_")) for other in unknown - {name})
+    return in_other or not words.isdisjoint(words_of_folders(db, environment))
 
 
-@derived
-def words_of_folders(context: Context) -> frozenset[str]:
+@query
+def words_of_folders(db: Database, environment: Environment) -> frozenset[str]:
     """The words in the names of the folders that packages of the workspace are in."""
-    own = (package.share for package in context.environment.own_packages)
-    folders = {os.path.dirname(share) for share in own}
+    folders = {os.path.dirname(package.share) for package in environment.own_packages}
     return frozenset(word for folder in folders for word in _BETWEEN.split(folder) if word)
 
 
-@derived
-def _unknown_dependencies(context: Context) -> frozenset[str]:
-    """What the manifests of the workspace name, and is neither here nor released."""
-    return _absent_dependencies(context) - _released_dependencies(context)
-
-
-@derived
-def _released_dependencies(context: Context) -> frozenset[str]:
+@query
+def _released_dependencies(db: Database, environment: Environment, generation: int) -> frozenset[str]:
     """What the manifests of the workspace name, and is not here but released."""
-    generation = context.tree.generation
-    return frozenset(name for name in _absent_dependencies(context) if distributions_with(name, generation))
+    return frozenset(name for name in _absent_dependencies(db, environment) if distributions_with(name, generation))
 
 
-@derived
-def _absent_dependencies(context: Context) -> frozenset[str]:
-    packages = context.environment.packages
-    own = (package.dependencies for package in context.environment.own_packages)
-    return frozenset[str]().union(*own) - packages.keys()
+@query
+def _absent_dependencies(db: Database, environment: Environment) -> frozenset[str]:
+    own = (package.dependencies for package in environment.own_packages)
+    return frozenset[str]().union(*own) - environment.packages.keys()
+
+
+def _is_meant(name: str, other: str) -> bool:
+    """Of the thousands of released names one is always near `arm_description` or another with a short word. Nobody
+    gives a package the name of another one in the singular (`geometry_msg`)."""
+    return name.removesuffix("s") == other.removesuffix("s") or _differ_in_words_of(_LONG, name, other)
 
 
 def _differ_in_words_of(length: int, name: str, other: str) -> bool:
-    """Of the thousands of released names one is always near `arm_description` or another with a short word."""
+    """Whether each word in which names differ has so many letters."""
     words, others = name.split("_"), other.split("_")
     differing = [pair for pair in zip(words, others, strict=False) if pair[0] != pair[1]]
     return len(words) != len(others) or all(len(word) >= length for pair in differing for word in pair)

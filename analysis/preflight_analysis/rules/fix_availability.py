@@ -23,7 +23,7 @@ _MAKERS = ("claim", "problem_claim")
 def fix_availability(rule: Rule) -> Availability:
     """`sometimes`: where the writer of the file's format can make it. `never`: no finding of the rule is made with
     fixes."""
-    checks = (rule.check, rule.of_description, rule.unused_suppression, rule.left_out)
+    checks = (rule.check, rule.of_package, rule.of_description, rule.unused_suppression, rule.left_out)
     entries = (each for each in checks if each is not None)
     sources = _Sources()
     for entry in entries:

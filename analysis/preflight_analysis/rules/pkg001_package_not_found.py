@@ -206,7 +206,7 @@ def _not_here(
 def _is_own_or_akin(context: Context, file: str, name: str, other: Package) -> bool:
     """Whether a package is that of the launch file, or has a word of another's name that not all may have."""
     own = package_around(context.environment, file)
-    generic = _GENERIC | words_of_folders(context)
+    generic = _GENERIC | words_of_folders(context.disk.db, context.environment)
     common = set(name.split("_")) & set(other.name.split("_")) - generic
     return bool(common) or (own is not None and own.name == other.name)
 
@@ -223,7 +223,7 @@ def _strangers(context: Context) -> frozenset[str]:
 def _of_like_words(context: Context, name: str) -> Package | None:
     """The one package of the workspace whose name differs in one word, or has some more: as before a rename. A word
     that all packages of the project may have, as its folder has it, tells nothing."""
-    generic = _GENERIC | words_of_folders(context)
+    generic = _GENERIC | words_of_folders(context.disk.db, context.environment)
     words, environment = name.split("_"), context.environment
     here, own = [], package_around(environment, context.root)
     for package in environment.own_packages:
