@@ -10,7 +10,8 @@ from preflight_analysis.findings.report import by_cause
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check
-from support.packaging import PYTHON, findings, said
+from support.packaging import CMAKE, LISTS, PYTHON, findings, of_packages, said
+from support.unbuilt_packages import manifest
 
 MANIFEST = """
         //- /robot/package.xml
@@ -186,3 +187,85 @@ def test_what_one_manifest_lacks_is_reported_once(tmp_path: Path) -> None:
 def test_imports_of_tests_and_launch_files(tmp_path: Path) -> None:
     files = {**PYTHON, "test/test_arm.py": IMPORTS, "launch/b.launch.py": "import launch_ros\n"}
     assert said(tmp_path, files, "PKG004") == []
+
+
+BUILT = {
+    **CMAKE,
+    "package.xml": manifest("arm", "ament_cmake").replace("</name>", "</name>\n<depend>ament_cmake</depend>"),
+}
+
+
+def _finds(name: str) -> str:
+    return LISTS.replace("(ament_cmake REQUIRED)", f"({name} REQUIRED)")
+
+
+LEG = "<package><name>leg</name>{}<export><build_type>ament_cmake</build_type></export></package>"
+
+
+@pytest.mark.parametrize(
+    ("files", "expected"),
+    [
+        (
+            {"CMakeLists.txt": _finds("leg")},
+            [
+                "CMakeLists.txt:3 warning package 'leg' is not a dependency in package.xml of 'arm': the build may "
+                "take 'arm' first, and CMake stops"
+            ],
+        ),
+        (
+            {"CMakeLists.txt": _finds("sensor_msgs")},
+            ["CMakeLists.txt:3 info package 'sensor_msgs' is not a dependency in package.xml of 'arm'"],
+        ),
+        (
+            {"src/driver.cpp": "#include <string>\n  #include <sensor_msgs/msg/imu.hpp>\nint main() {}\n"},
+            ["src/driver.cpp:2 info package 'sensor_msgs' is not a dependency in package.xml of 'arm'"],
+        ),
+        (
+            {"srv/Move.srv": "# std_msgs/Header x\ngeometry_msgs/Pose[<=3] goals # where\n---\nbool ok\n"},
+            ["srv/Move.srv:2 info package 'geometry_msgs' is not a dependency in package.xml of 'arm'"],
+        ),
+    ],
+)
+def test_what_a_build_needs(tmp_path: Path, files: dict[str, str], expected: list[str]) -> None:
+    (tmp_path / "src/leg").mkdir(parents=True)
+    (tmp_path / "src/leg/package.xml").write_text(LEG.format(""))
+    assert of_packages(tmp_path, {**BUILT, **files}, "PKG004") == expected
+
+
+def test_the_order_of_a_build_by_way_of_another_package(tmp_path: Path) -> None:
+    for name, needs in (("leg", ""), ("hip", "<depend>leg</depend>")):
+        (tmp_path / "src" / name).mkdir(parents=True)
+        (tmp_path / "src" / name / "package.xml").write_text(LEG.format(needs).replace("leg</name>", f"{name}</name>"))
+    text = BUILT["package.xml"].replace("</name>", "</name><depend>hip</depend>")
+    files = {**BUILT, "package.xml": text, "CMakeLists.txt": _finds("leg")}
+    assert of_packages(tmp_path, files, "PKG004") == [
+        "CMakeLists.txt:3 hint package 'leg' is not a dependency in package.xml of 'arm'"
+    ]
+
+
+def test_the_components_of_catkin(tmp_path: Path) -> None:
+    files = {
+        "package.xml": manifest("arm", "catkin").replace("</name>", "</name>\n<depend>roscpp</depend>"),
+        "CMakeLists.txt": "project(arm)\nfind_package(catkin REQUIRED COMPONENTS roscpp sensor_msgs)\ncatkin_package()",
+    }
+    assert of_packages(tmp_path, files, "PKG004") == [
+        "CMakeLists.txt:2 info package 'sensor_msgs' is not a dependency in package.xml of 'arm'"
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "files",
+    [
+        {"CMakeLists.txt": _finds("Boost")},
+        {"CMakeLists.txt": _finds("nav_msgs").replace("nav_msgs REQUIRED", "nav_msgs QUIET")},
+        {"CMakeLists.txt": "if(BUILD_TESTING)\nfind_package(ament_lint_auto REQUIRED)\nendif()\n" + LISTS},
+        {"src/driver.cpp": "#include <octomap/octomap.h>\n// #include <nav_msgs/msg/path.hpp>\n"},
+        {"src/driver.cpp": "/*\n#include <nav_msgs/msg/path.hpp>\n*/\n#ifdef ROS1\n#include <tf2/a.h>\n#endif\n"},
+        {"src/driver.cpp": '#include "angles/angles.h"\n', "include/angles/angles.h": ""},
+        {"test/test_arm.cpp": "#include <nav_msgs/msg/path.hpp>\n"},
+        {"srv/Move.srv": "arm/Pose goal\nHeader header\n---\n"},
+    ],
+)
+def test_what_is_no_package_of_ros(tmp_path: Path, files: dict[str, str]) -> None:
+    assert said(tmp_path, {**BUILT, **files}, "PKG004") == []

@@ -75,6 +75,14 @@ class InstalledTarget:
 
 
 @dataclass(frozen=True, slots=True)
+class Required:
+    """A package without which CMake stops."""
+
+    name: str
+    said: Said
+
+
+@dataclass(frozen=True, slots=True)
 class Made:
     """Where an executable comes from: the file in the source, and whether `catkin_make` makes it known already or
     only `install` does."""
@@ -109,6 +117,8 @@ class Build:
     """Where the headers of its targets lie."""
     python_packages: Mapping[str, str] = field(default_factory=dict)
     """The folder of each Python package that it installs, by the name that it is imported by."""
+    required: tuple[Required, ...] = ()
+    """What `find_package` needs, the components of catkin too."""
     all_named: bool = True
     """Whether the name of each executable is known."""
     complete: bool = False

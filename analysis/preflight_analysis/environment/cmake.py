@@ -24,6 +24,7 @@ from preflight_analysis.environment.build import (
     Installed,
     InstalledTarget,
     Program,
+    Required,
     Said,
     Target,
 )
@@ -149,6 +150,7 @@ class _Lists:
         self._plugin_files: dict[str, None] = {}
         self._include_folders: dict[str, None] = {}
         self._python_packages: dict[str, str] = {}
+        self._required: list[Required] = []
         self._macros: dict[str, Command] = {}
         self._left = _MAX_COMMANDS
         self.complete = True
@@ -172,6 +174,7 @@ class _Lists:
             tuple(self._plugin_files),
             tuple(self._include_folders),
             self._python_packages,
+            tuple(self._required),
             all_named=self.all_named,
         )
 
@@ -275,6 +278,11 @@ class _Lists:
                 variables.update(texts_made(name, words) or {})
             case "file", ["GLOB" | "GLOB_RECURSE" as how, variable, *patterns]:
                 variables[variable] = joined(globbed(self._disk, patterns, folder, how == "GLOB_RECURSE"))
+            case "find_package", ["catkin", *rest] if "COMPONENTS" in rest:
+                components = rest[rest.index("COMPONENTS") + 1 :]
+                self._required += [Required(each, self._said) for each in components if each != "REQUIRED"]
+            case "find_package", [needed, *rest] if "REQUIRED" in rest:
+                self._required.append(Required(needed, self._said))
             case "catkin_simple", _:
                 self._headers(["include"], folder)
             case "install_scripts", files:  # of catkin_simple

@@ -1,18 +1,21 @@
 """PKG004: a package that a launch file needs and the package.xml above it does not name."""
 
+from __future__ import annotations
+
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
-from itertools import chain
+from itertools import chain, islice
 
-from preflight_analysis.catalogue.released import distributions_with
+from preflight_analysis.catalogue.released import distributions_with, system_keys
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.edits.xml import XmlWriter
-from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.installed_paths import cmake_build, package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.environment.packages import MANIFEST
@@ -28,12 +31,25 @@ from preflight_analysis.model.names_of_launch_files import packages_of_launch_fi
 from preflight_analysis.model.problems import fix
 from preflight_analysis.model.python_imports import imported_tops
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
-from preflight_analysis.rules.packages import check_packages
+from preflight_analysis.rules.packages import check_packages, line_of, said_at
 from preflight_analysis.rules.rule import Rule
 
 _TEST_FOLDERS = ("test", "tests")
 _NOT_NODES = frozenset((*_TEST_FOLDERS, "launch", "build", "install", "log", "doc", "docs", "examples"))
 _MOST_FILES = 500
+_BUILT = ("ament_cmake", "ament_python", "catkin")
+_BUILD_TOOLS = ("ament_cmake", "rosidl_default_generators", "catkin")
+_OF_FORMAT_1 = {"exec_depend": "run_depend", "depend": "build_depend"}
+_OF_CPP = (".cpp", ".cc", ".cxx", ".h", ".hpp", ".hh", ".hxx")
+_OF_INTERFACES = (".msg", ".srv", ".action")
+_OTHER_HEADERS = frozenset(("ros", "moveit"))
+"""Packages without headers, whose name is a folder of those of others: roscpp and moveit_core."""
+_BLOCK_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+_DIRECTIVE = re.compile(r"\s*#\s*(?P<name>ifn?def|if|endif|include)\b\s*(?:[<\"](?P<folder>\w+)/[^>\"]+)?")
+_GUARD = re.compile(r"\w+_H(?:PP|XX|H)?_*\b")
+_FIELD = re.compile(r"^[ \t]*([a-z]\w*)/(?:msg/)?[A-Z]\w*(?:\[[^\]\n]*\])?[ \t]+\w", re.MULTILINE)
+_Need = tuple[str, Location, str, bool]
+"""A package, where it is needed, the tag that names it in a manifest, and whether CMake stops without it."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -42,28 +58,107 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def of_package(rule: Rule, disk: Disk, environment: Environment, package: Package) -> Iterator[Finding]:
-    """The packages that the Python modules of a package import and its manifest does not name, each once. In ROS 1 what
-    a module imports need not be a package of that name."""
-    if not package.is_ament:
+    """The packages that the build files, sources and modules of a package need and its manifest does not name, each
+    once, the gravest first."""
+    if package.build_type not in _BUILT or package.conditional:
         return
     said = {package.name, *package.dependencies}
     manifest = disk.text(package.manifest)
-    for path in files_in(disk, package.share, deep=True)[:_MOST_FILES]:
-        folders = os.path.relpath(path, package.share).split(os.sep)
-        if not path.endswith(".py") or path.endswith("launch.py") or folders == ["setup.py"]:
+    for name, place, tag, is_required in chain(
+        _found_by_cmake(disk, package),
+        _imported(disk, package),
+        _included(disk, package),
+        _in_definitions(disk, package),
+    ):
+        own = name in environment.packages
+        if name in said or not (own or _is_released(name, package.generation)):
             continue
-        document = disk.text(path) if _NOT_NODES.isdisjoint(folders[:-1]) else None
-        if not isinstance(document, Document):
+        said.add(name)
+        before = _built_before(disk.db, environment, package) if own and is_required else frozenset()
+        is_late = (
+            is_required and own and name not in before and not environment.is_installed(environment.packages[name])
+        )
+        is_brought = not is_late and name in _brought(disk.db, environment)
+        fixes = _fixes(manifest, package, name, place.file, tag)
+        yield _claim(rule, package, name, place, fixes, is_brought=is_brought, is_late=is_late)
+
+
+def _is_released(name: str, generation: int) -> bool:
+    """Whether it is a package of ROS, and none of the operating system as well, which a manifest may name instead."""
+    is_of_system = not system_keys().isdisjoint((name, f"lib{name}-dev"))
+    return bool(distributions_with(name, generation)) and not is_of_system
+
+
+@query
+def _built_before(db: Database, environment: Environment, package: Package) -> frozenset[str]:
+    """The packages that a build makes first, as the manifests of the workspace say."""
+    found, pending = set[str](), list(package.dependencies)
+    while pending:
+        name = pending.pop()
+        if name not in found:
+            found.add(name)
+            pending += environment.packages[name].dependencies if name in environment.packages else ()
+    return frozenset(found)
+
+
+def _found_by_cmake(disk: Disk, package: Package) -> Iterator[_Need]:
+    for required in cmake_build(disk, package).required if package.build_type != "ament_python" else ():
+        place = said_at(disk, required.said, required.name) if required.said.sure else None
+        if place is not None:
+            is_tool = required.name.startswith(_BUILD_TOOLS)
+            yield required.name, place, "buildtool_depend" if is_tool else "depend", True
+
+
+def _imported(disk: Disk, package: Package) -> Iterator[_Need]:
+    """What modules import whenever they are loaded. In ROS 1 that need not be a package of that name."""
+    for path in _sources(disk, package, (".py",)) if package.is_ament else ():
+        document = disk.text(path)
+        if path.endswith("launch.py") or path == f"{package.share}/setup.py" or not isinstance(document, Document):
             continue
         for top, number in imported_tops(document):
-            if top in said or not (top in environment.packages or distributions_with(top, 2)):
-                continue
-            said.add(top)
-            line = document.lines.line_span(number)
-            at = document.text.find(top, line.start)
-            place = document.location(Span(at, at + len(top)) if at >= 0 else line)
-            is_brought = top in _brought(disk.db, environment)
-            yield _claim(rule, package, top, place, _fixes(manifest, package, top, path), is_brought=is_brought)
+            yield top, line_of(document, number, top), "exec_depend", False
+
+
+def _included(disk: Disk, package: Package) -> Iterator[_Need]:
+    folders = {folder for path in files_in(disk, package.share, deep=True) for folder in path.split("/")[:-1]}
+    for path in _sources(disk, package, _OF_CPP):
+        for name, line in _includes(disk.db, path):
+            document = disk.text(path) if name not in folders and name not in _OTHER_HEADERS else None
+            if isinstance(document, Document):
+                yield name, line_of(document, line, name), "depend", False
+
+
+def _in_definitions(disk: Disk, package: Package) -> Iterator[_Need]:
+    for path in _sources(disk, package, _OF_INTERFACES):
+        document = disk.text(path)
+        for found in _FIELD.finditer(document.text) if isinstance(document, Document) else ():
+            yield found[1], document.location(Span(*found.span(1))), "depend", False
+
+
+def _sources(disk: Disk, package: Package, endings: tuple[str, ...]) -> Iterator[str]:
+    paths = (path for path in files_in(disk, package.share, deep=True) if path.endswith(endings))
+    for path in islice(paths, _MOST_FILES):
+        if _NOT_NODES.isdisjoint(os.path.relpath(path, package.share).split(os.sep)[:-1]):
+            yield path
+
+
+@query
+def _includes(db: Database, path: str) -> tuple[tuple[str, int], ...]:
+    """The first folders of the headers that a file includes under no condition but that of an include guard, each with
+    its first line, counted from 0."""
+    found: dict[str, int] = {}
+    content = _BLOCK_COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), Disk(db).content(path) or "")
+    depth = 0
+    for number, line in enumerate(content.splitlines()):
+        if (directive := _DIRECTIVE.match(line)) is None:
+            continue
+        if directive["name"].startswith("if"):
+            depth += directive["name"] != "ifndef" or _GUARD.search(line) is None
+        elif directive["name"] == "endif":
+            depth = max(depth - 1, 0)
+        elif not depth and directive["folder"] is not None:
+            found.setdefault(directive["folder"], number)
+    return tuple(found.items())
 
 
 def _of_launch_files(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -101,17 +196,26 @@ def _findings(
 
 
 def _claim(
-    rule: Rule, owner: Package, name: str, place: Location, fixes: Iterable[Fix], *, is_brought: bool
+    rule: Rule,
+    owner: Package,
+    name: str,
+    place: Location,
+    fixes: Iterable[Fix],
+    *,
+    is_brought: bool,
+    is_late: bool = False,
 ) -> Finding:
     manifest = os.path.basename(owner.manifest)
     many = say("packages are not dependencies in {manifest} of '{owner}'", manifest=manifest, owner=owner.name)
+    late = f": the build may take '{owner.name}' first, and CMake stops" if is_late else ""
     return rule.claim(
-        f"package '{name}' is not a dependency in {manifest} of '{owner.name}'",
+        f"package '{name}' is not a dependency in {manifest} of '{owner.name}'{late}",
         place,
         subject=Subject("package", name),
-        doubts=doubts(NO_DIFFERENCE=is_brought),
+        effect="misbehaves" if is_late else None,
+        doubts=doubts(NO_DIFFERENCE=is_brought, UNSEEN=is_late),
         fixes=fixes,
-        alike=Alike(many, name, owner.manifest),
+        alike=None if is_late else Alike(many, name, owner.manifest),
     )
 
 
@@ -150,13 +254,16 @@ def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
     return first
 
 
-def _fixes(manifest: Document | Unreadable, owner: Package, name: str, file: str) -> tuple[Fix, ...]:
+def _fixes(
+    manifest: Document | Unreadable, owner: Package, name: str, file: str, tag: str = "exec_depend"
+) -> tuple[Fix, ...]:
     if not isinstance(manifest, Document) or os.path.basename(owner.manifest) != MANIFEST:
         return ()
     folders = file[len(owner.share) :].split("/")
     root = parse_xml(manifest.path, manifest.text, lines=manifest.lines).root
     given = root.get("format") if root is not None else None
-    tag = "exec_depend" if given is not None and given.value.text in ("2", "3") else "run_depend"
+    if given is None or given.value.text not in ("2", "3"):
+        tag = _OF_FORMAT_1.get(tag, tag)
     if file.endswith(".test") or any(folder in _TEST_FOLDERS for folder in folders):
         tag = "test_depend"
     edits = XmlWriter(manifest).add_dependency(tag, name)
@@ -168,13 +275,15 @@ RULE = Rule(
     name="package-not-in-manifest",
     effect="note",
     kind="absent",
-    sometimes=(Reason.NO_DIFFERENCE,),
-    what="Checks for a package that a launch file uses, or in ROS 2 a Python module imports, and that the "
-    "`package.xml` of its own package does not name as any kind of dependency. An editor shows each package once in a "
-    "launch file, and once for all modules; `check` has one finding for each `package.xml`. It is a hint where the "
-    "workspace has the package, or another of its packages names it.",
+    sometimes=(Reason.NO_DIFFERENCE, Reason.UNSEEN),
+    what="Checks for a package that a launch file uses, `CMakeLists.txt` requires, C++ sources include, messages have "
+    "fields of, or in ROS 2 a Python module imports, and that the `package.xml` of its own package does not name as "
+    "any kind of dependency. It is a warning where `find_package` requires a package of the workspace. An editor shows "
+    "each package once in a launch file, and once for all other files; `check` has one finding for each `package.xml`. "
+    "It is a hint where the workspace has the package, or another of its packages names it.",
     why="`rosdep` and binary packages install only declared dependencies. The launch file fails where no other "
-    "package needs the missing one. In ROS 1 `roslaunch_add_file_check` reports the same.",
+    "package needs the missing one. A workspace is built in the order of its manifests: CMake does not find what is "
+    "not built yet. In ROS 1 `roslaunch_add_file_check` reports the same.",
     example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',
     instead="<exec_depend>rviz</exec_depend>",
     references=(
