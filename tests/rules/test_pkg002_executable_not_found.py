@@ -351,3 +351,10 @@ def test_a_target_that_is_built_and_not_installed(tmp_path: Path, installs: str,
     for finding, expected in zip(found, said, strict=True):
         severity, _, message = expected.partition(" ")
         assert (finding.severity, finding.message.endswith(message)) == (severity, True)
+
+
+def test_the_name_of_the_project_is_no_executable(launch: Path) -> None:
+    cmake = launch.parent / "CMakeLists.txt"
+    cmake.write_text("project(demo)\nadd_executable(driver src/node.cpp)\ncatkin_package()\n")
+    (finding,) = judge(launch, "demo")
+    assert finding.severity == "error"

@@ -221,6 +221,10 @@ LEG = "<package><name>leg</name>{}<export><build_type>ament_cmake</build_type></
             ["src/driver.cpp:2 info package 'sensor_msgs' is not a dependency in package.xml of 'arm'"],
         ),
         (
+            {"CMakeLists.txt": _finds("ament_cmake_python")},
+            ["CMakeLists.txt:3 hint package 'ament_cmake_python' is not a dependency in package.xml of 'arm'"],
+        ),
+        (
             {"srv/Move.srv": "# std_msgs/Header x\ngeometry_msgs/Pose[<=3] goals # where\n---\nbool ok\n"},
             ["srv/Move.srv:2 info package 'geometry_msgs' is not a dependency in package.xml of 'arm'"],
         ),

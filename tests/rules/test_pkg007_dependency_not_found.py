@@ -94,7 +94,7 @@ def test_a_name_of_the_system_with_another_short_word_is_none_of_a_slip() -> Non
         //- /robot/launch/all.launch
         <launch/>
         //- /robot/package.xml
-        <package><name>robot</name><depend>libdmtx-dev</depend></package>
+        <package><name>robot</name><depend>libdmtx-dev</depend><depend>param_io</depend></package>
     """)
 
 
@@ -138,6 +138,7 @@ def test_a_package_of_the_other_generation(
         "<build_type condition='$ROS_VERSION == 2'>ament_cmake</build_type></export></package>",
         f"<depend>std_msgs</depend><depend>tf2_ros</depend>{OF_ROS2}",
         f"<depend>hector_slam</depend>{OF_ROS2}",
+        "<buildtool_depend>catkin</buildtool_depend><depend>tf2_ros</depend></package>",
     ],
 )
 def test_both_generations_and_what_has_no_successor(tmp_path: Path, text: str) -> None:

@@ -132,3 +132,14 @@ def test_a_script_that_another_imports_and_a_launch_file_starts(tmp_path: Path) 
     files = {**CMAKE, "CMakeLists.txt": LISTS.replace("PROGRAMS", "FILES"), "launch/arm.launch.xml": node}
     files["scripts/all_reports.py"] = "import report\n"
     assert said(tmp_path, files, "PKG011") == [f"CMakeLists.txt:6 error {NO_RUN}"]
+
+
+@pytest.mark.silent
+def test_a_package_whose_name_has_a_slash(tmp_path: Path) -> None:
+    files = {
+        **PYTHON,
+        "package.xml": manifest("src/arm", "ament_python"),
+        "setup.py": SETUP.replace("package_name = 'arm'", "package_name = 'src/arm'"),
+        "setup.cfg": CFG.replace("lib/arm", "lib/src/arm"),
+    }
+    assert said(tmp_path, files, "PKG011") == []

@@ -25,6 +25,7 @@ from preflight_analysis.incremental.query import query
 _COMPONENTS = os.path.join("share", "ament_index", "resource_index", "rclcpp_components")
 _RUNNABLE = stat.S_IRUSR | stat.S_IXUSR
 _MAX_MARKER = 65536
+_EXECUTABLE = re.compile(r"add_executable\s*\(\s*\"?([^\s()\"]+)", re.IGNORECASE)
 
 
 class ExecutableIndex:
@@ -44,8 +45,8 @@ class ExecutableIndex:
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether a `CMakeLists.txt` of the package names the executable: it is there once the workspace is built.
 
-        Where the file is not understood a word of it is taken for its word; `${PROJECT_NAME}` is the package. A library
-        is no executable.
+        Where the files are not understood a word of them is taken for its word; `${PROJECT_NAME}` is the package. A
+        library is no executable.
         """
         if package not in self._environment.packages:
             return False
@@ -54,7 +55,10 @@ class ExecutableIndex:
             return True
         if build.complete and build.library(name) is not None:
             return False
-        return name in _words_of_lists(self._db, self._environment, package)
+        words = _words_of_lists(self._db, self._environment, package)
+        if build.complete and build.all_named:  # a file that none adds may make it all the same
+            return f"add_executable({name}" in words
+        return name in words
 
     def is_library_target(self, package: str, name: str) -> bool:
         """Whether a `CMakeLists.txt` of the package names the library (`vision` for `libvision.so`), likewise."""
@@ -143,13 +147,14 @@ def _build(db: Database, environment: Environment, package: str) -> Build:
 
 @query
 def _words_of_lists(db: Database, environment: Environment, package: str) -> frozenset[str]:
-    """The words of all the `CMakeLists.txt` of a package."""
+    """The words of all the `CMakeLists.txt` of a package; `add_executable(name` is one."""
     words: set[str] = set()
     for path in _walked(db, environment.packages[package].share).get("CMakeLists.txt", ()):
         found = Disk(db).content(path)
         if found is not None:
             plain = re.sub(r"#.*", "", found.replace("${PROJECT_NAME}", package))
             words.update(re.findall(r"[^\s()\"]+", plain))
+            words.update(f"add_executable({name}" for name in _EXECUTABLE.findall(plain))
     return frozenset(words)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from itertools import chain, islice
 
@@ -42,6 +42,24 @@ _BUILD_TOOLS = ("ament_cmake", "rosidl_default_generators", "catkin")
 _OF_FORMAT_1 = {"exec_depend": "run_depend", "depend": "build_depend"}
 _OF_CPP = (".cpp", ".cc", ".cxx", ".h", ".hpp", ".hh", ".hxx")
 _OF_INTERFACES = (".msg", ".srv", ".action")
+_OF_CLIENTS = (
+    "action_msgs",
+    "builtin_interfaces",
+    "rcl",
+    "rcl_interfaces",
+    "rcpputils",
+    "rcutils",
+    "rmw",
+    "rosgraph_msgs",
+)
+_BRINGS: Mapping[str, Collection[str]] = {
+    "ament_cmake": ("ament_cmake_core", "ament_cmake_python", "ament_cmake_test"),
+    "ament_cmake_auto": ("ament_cmake",),
+    "rclcpp": _OF_CLIENTS,
+    "rclpy": (*_OF_CLIENTS, "ament_index_python", "lifecycle_msgs"),
+    "tf2_ros": ("tf2", "tf2_msgs", "geometry_msgs", "message_filters"),
+}
+"""What comes with packages that nearly all others name, by their own manifests (Humble to Jazzy)."""
 _OTHER_HEADERS = frozenset(("ros", "moveit"))
 """Packages without headers, whose name is a folder of those of others: roscpp and moveit_core."""
 _BLOCK_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
@@ -78,7 +96,8 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
         is_late = (
             is_required and own and name not in before and not environment.is_installed(environment.packages[name])
         )
-        is_brought = not is_late and name in _brought(disk.db, environment)
+        by_another = any(name in _BRINGS.get(other, ()) for other in package.dependencies)
+        is_brought = not is_late and (by_another or name in _brought(disk.db, environment))
         fixes = _fixes(manifest, package, name, place.file, tag)
         yield _claim(rule, package, name, place, fixes, is_brought=is_brought, is_late=is_late)
 
@@ -212,7 +231,8 @@ def _claim(
         f"package '{name}' is not a dependency in {manifest} of '{owner.name}'{late}",
         place,
         subject=Subject("package", name),
-        effect="misbehaves" if is_late else None,
+        # catkin takes packages that need nothing of each other by the alphabet: it may well build.
+        effect="misbehaves" if is_late and owner.is_ament else None,
         doubts=doubts(NO_DIFFERENCE=is_brought, UNSEEN=is_late),
         fixes=fixes,
         alike=None if is_late else Alike(many, name, owner.manifest),

@@ -17,7 +17,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.installed import is_of_family_in, near_package_in
-from preflight_analysis.model.nearest import did_you_mean, is_slip_of_words, nearest
+from preflight_analysis.model.nearest import did_you_mean, folded, is_slip_of_words, nearest, squeezed
 from preflight_analysis.model.problems import all_of, fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.packages import check_packages
@@ -60,7 +60,8 @@ def _of_other_generation(
     said = set[str]()
     for name, span, conditional in _dependencies(manifest):
         other = in_generation(name, package.generation)
-        if other is None or conditional or name in said or name in environment.packages:
+        known = name in environment.packages or distributions_with(name, package.generation)
+        if other is None or known or conditional or name in said:
             continue
         said.add(name)
         yield rule.claim(
@@ -99,7 +100,11 @@ def _dependencies(manifest: Document) -> Iterator[tuple[str, Span, bool]]:
 def _near_key(db: Database, name: str) -> str | None:
     """The package of the operating system of whose name this is a slip."""
     near = nearest(name, system_keys()) if name not in system_keys() else None
-    return near if near is not None and len(name) >= _LONG and is_slip_of_words(name, near) else None
+    if near is None or len(name) < _LONG or not is_slip_of_words(name, near):
+        return None
+    # One word is no slip of two (`param_io`, `paramiko`).
+    same_words = len(folded(name).split("_")) == len(folded(near).split("_"))
+    return near if same_words or squeezed(name) == squeezed(near) else None
 
 
 _BUILT = ("ament_cmake", "ament_python", "catkin")

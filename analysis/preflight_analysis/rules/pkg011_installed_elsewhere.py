@@ -93,9 +93,9 @@ def _files_of_python(rule: Rule, package: Package, called: Called, document: Doc
     share, said = f"share/{package.name}", set[str]()
     for each in called.copied:
         folders = each.destination.split("/")
-        elsewhere = folders[0] != "share" or (len(folders) > 1 and folders[1] not in (package.name, "ament_index"))
+        is_below = f"{each.destination}/".startswith((f"{share}/", "share/ament_index/")) or folders == ["share"]
         is_launch = each.source.endswith(_OF_ROS2_LAUNCH) and folders[0] not in ("lib", "..")
-        if each.destination in said or not elsewhere or not (is_launch or each.source == _MANIFEST):
+        if each.destination in said or is_below or not (is_launch or each.source == _MANIFEST):
             continue
         if os.path.isabs(each.destination):
             continue
