@@ -138,6 +138,7 @@ def test_a_package_of_the_other_generation(
         "<build_type condition='$ROS_VERSION == 2'>ament_cmake</build_type></export></package>",
         f"<depend>std_msgs</depend><depend>tf2_ros</depend>{OF_ROS2}",
         f"<depend>hector_slam</depend>{OF_ROS2}",
+        f"<depend>robot_description</depend>{OF_ROS2}",
         "<buildtool_depend>catkin</buildtool_depend><depend>tf2_ros</depend></package>",
     ],
 )

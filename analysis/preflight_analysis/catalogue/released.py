@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -59,6 +60,13 @@ def in_debian(name: str) -> str | None:
 def nearest_released(name: str, generation: int, edits: int) -> tuple[str, ...]:
     """The packages of a generation, in whichever distribution, that are at most so many edits away; nearest first."""
     return tuple(within(name, _names(generation), edits, 4))
+
+
+@lru_cache(maxsize=1)
+def released_words() -> frozenset[str]:
+    """The words that the names of packages are made of, of which several have each."""
+    words = Counter(word for name in _letters() for word in set(name.split("_")))
+    return frozenset(word for word, times in words.items() if times > 1)
 
 
 @lru_cache(maxsize=2)

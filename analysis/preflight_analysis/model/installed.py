@@ -15,6 +15,7 @@ from preflight_analysis.catalogue.released import (
     distributions_with,
     in_debian,
     nearest_released,
+    released_words,
 )
 from preflight_analysis.environment.git_submodules import Submodule, left_submodule, left_submodules_below
 from preflight_analysis.environment.installed_paths import installs_more, located, made_by_build, package_around
@@ -174,9 +175,13 @@ def _absent_dependencies(db: Database, environment: Environment) -> frozenset[st
 
 
 def _is_meant(name: str, other: str) -> bool:
-    """Of the thousands of released names one is always near `arm_description` or another with a short word. Nobody
-    gives a package the name of another one in the singular (`geometry_msg`)."""
-    return name.removesuffix("s") == other.removesuffix("s") or _differ_in_words_of(_LONG, name, other)
+    """Of the thousands of released names one is always near `arm_description` or another with a short word, or with a
+    word that others have (`robot_description`, `rosbot_description`). Nobody gives a package the name of another one in
+    the singular (`geometry_msg`)."""
+    if name.removesuffix("s") == other.removesuffix("s"):
+        return True
+    is_slip_of_word = not released_words().issuperset(set(name.split("_")) - set(other.split("_")))
+    return is_slip_of_word and _differ_in_words_of(_LONG, name, other)
 
 
 def _differ_in_words_of(length: int, name: str, other: str) -> bool:

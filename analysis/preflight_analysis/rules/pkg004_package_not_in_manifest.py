@@ -150,8 +150,9 @@ def _included(disk: Disk, package: Package) -> Iterator[_Need]:
 def _in_definitions(disk: Disk, package: Package) -> Iterator[_Need]:
     for path in _sources(disk, package, _OF_INTERFACES):
         document = disk.text(path)
-        for found in _FIELD.finditer(document.text) if isinstance(document, Document) else ():
-            yield found[1], document.location(Span(*found.span(1))), "depend", False
+        if isinstance(document, Document):
+            for found in _FIELD.finditer(document.text):
+                yield found[1], document.location(Span(*found.span(1))), "depend", False
 
 
 def _sources(disk: Disk, package: Package, endings: tuple[str, ...]) -> Iterator[str]:
