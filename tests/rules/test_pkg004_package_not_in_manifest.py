@@ -189,12 +189,6 @@ def test_imports_of_tests_and_launch_files(tmp_path: Path) -> None:
     assert said(tmp_path, files, "PKG004") == []
 
 
-BUILT = {
-    **CMAKE,
-    "package.xml": manifest("arm", "ament_cmake").replace("</name>", "</name>\n<depend>ament_cmake</depend>"),
-}
-
-
 def _finds(name: str) -> str:
     return LISTS.replace("(ament_cmake REQUIRED)", f"({name} REQUIRED)")
 
@@ -233,15 +227,15 @@ LEG = "<package><name>leg</name>{}<export><build_type>ament_cmake</build_type></
 def test_what_a_build_needs(tmp_path: Path, files: dict[str, str], expected: list[str]) -> None:
     (tmp_path / "src/leg").mkdir(parents=True)
     (tmp_path / "src/leg/package.xml").write_text(LEG.format(""))
-    assert of_packages(tmp_path, {**BUILT, **files}, "PKG004") == expected
+    assert of_packages(tmp_path, {**CMAKE, **files}, "PKG004") == expected
 
 
 def test_the_order_of_a_build_by_way_of_another_package(tmp_path: Path) -> None:
     for name, needs in (("leg", ""), ("hip", "<depend>leg</depend>")):
         (tmp_path / "src" / name).mkdir(parents=True)
         (tmp_path / "src" / name / "package.xml").write_text(LEG.format(needs).replace("leg</name>", f"{name}</name>"))
-    text = BUILT["package.xml"].replace("</name>", "</name><depend>hip</depend>")
-    files = {**BUILT, "package.xml": text, "CMakeLists.txt": _finds("leg")}
+    text = CMAKE["package.xml"].replace("</name>", "</name><depend>hip</depend>")
+    files = {**CMAKE, "package.xml": text, "CMakeLists.txt": _finds("leg")}
     assert of_packages(tmp_path, files, "PKG004") == [
         "CMakeLists.txt:3 hint package 'leg' is not a dependency in package.xml of 'arm'"
     ]
@@ -272,4 +266,4 @@ def test_the_components_of_catkin(tmp_path: Path) -> None:
     ],
 )
 def test_what_is_no_package_of_ros(tmp_path: Path, files: dict[str, str]) -> None:
-    assert said(tmp_path, {**BUILT, **files}, "PKG004") == []
+    assert said(tmp_path, {**CMAKE, **files}, "PKG004") == []

@@ -56,7 +56,9 @@ ament_package()
 """
 SCRIPT = "#!/usr/bin/env python3\nif __name__ == '__main__':\n    print()\n"
 CMAKE = {
-    "package.xml": manifest("arm", "ament_cmake"),
+    "package.xml": manifest("arm", "ament_cmake").replace(
+        "</name>", "</name><buildtool_depend>ament_cmake</buildtool_depend>"
+    ),
     "CMakeLists.txt": LISTS,
     "src/driver.cpp": "int main() {}\n",
     "scripts/report.py": SCRIPT,
