@@ -20,6 +20,11 @@ _TOKEN = re.compile(
     """,
     re.DOTALL | re.VERBOSE,
 )
+_MAKES = re.compile(
+    r"(?i)\b(?:execute_process|add_custom_command|add_custom_target|configure_file|externalproject_add|fetchcontent_\w+"
+    r"|include\s*\(\s*\S+[./]|file\s*\(\s*(?:DOWNLOAD|MAKE_DIRECTORY|WRITE|GENERATE|COPY|CREATE_LINK))\b"
+)
+_WORD = re.compile(r"[^\s()\"]+")
 _ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction", "if": "endif"}
 
 
@@ -43,6 +48,17 @@ class Command:
     """What stands between an `if`, `foreach`, `macro` or `function` and its end."""
     at: int = field(default=0, compare=False)
     """Where its name stands in the text."""
+
+
+def may_make_files(text: str) -> bool:
+    """Whether a file has a command by which a build makes files, or another file that may have one."""
+    return _MAKES.search(text) is not None
+
+
+def word_end(text: str, at: int) -> int:
+    """Where the word ends that begins at an offset."""
+    found = _WORD.match(text, at)
+    return found.end() if found is not None else at
 
 
 def commands(text: str) -> tuple[Command, ...]:

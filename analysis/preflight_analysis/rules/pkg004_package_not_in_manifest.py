@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from itertools import chain, islice
@@ -27,6 +26,7 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.named_in_sources import included_folders, packages_of_fields
 from preflight_analysis.model.names_of_launch_files import packages_of_launch_file
 from preflight_analysis.model.problems import fix
 from preflight_analysis.model.python_imports import imported_tops
@@ -62,10 +62,6 @@ _BRINGS: Mapping[str, Collection[str]] = {
 """What comes with packages that nearly all others name, by their own manifests (Humble to Jazzy)."""
 _OTHER_HEADERS = frozenset(("ros", "moveit"))
 """Packages without headers, whose name is a folder of those of others: roscpp and moveit_core."""
-_BLOCK_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
-_DIRECTIVE = re.compile(r"\s*#\s*(?P<name>ifn?def|if|endif|include)\b\s*(?:[<\"](?P<folder>\w+)/[^>\"]+)?")
-_GUARD = re.compile(r"\w+_H(?:PP|XX|H)?_*\b")
-_FIELD = re.compile(r"^[ \t]*([a-z]\w*)/(?:msg/)?[A-Z]\w*(?:\[[^\]\n]*\])?[ \t]+\w", re.MULTILINE)
 _Need = tuple[str, Location, str, bool]
 """A package, where it is needed, the tag that names it in a manifest, and whether CMake stops without it."""
 
@@ -141,7 +137,7 @@ def _imported(disk: Disk, package: Package) -> Iterator[_Need]:
 def _included(disk: Disk, package: Package) -> Iterator[_Need]:
     folders = {folder for path in files_in(disk, package.share, deep=True) for folder in path.split("/")[:-1]}
     for path in _sources(disk, package, _OF_CPP):
-        for name, line in _includes(disk.db, path):
+        for name, line in included_folders(disk.db, path):
             document = disk.text(path) if name not in folders and name not in _OTHER_HEADERS else None
             if isinstance(document, Document):
                 yield name, line_of(document, line, name), "depend", False
@@ -151,8 +147,8 @@ def _in_definitions(disk: Disk, package: Package) -> Iterator[_Need]:
     for path in _sources(disk, package, _OF_INTERFACES):
         document = disk.text(path)
         if isinstance(document, Document):
-            for found in _FIELD.finditer(document.text):
-                yield found[1], document.location(Span(*found.span(1))), "depend", False
+            for name, span in packages_of_fields(document):
+                yield name, document.location(span), "depend", False
 
 
 def _sources(disk: Disk, package: Package, endings: tuple[str, ...]) -> Iterator[str]:
@@ -160,25 +156,6 @@ def _sources(disk: Disk, package: Package, endings: tuple[str, ...]) -> Iterator
     for path in islice(paths, _MOST_FILES):
         if _NOT_NODES.isdisjoint(os.path.relpath(path, package.share).split(os.sep)[:-1]):
             yield path
-
-
-@query
-def _includes(db: Database, path: str) -> tuple[tuple[str, int], ...]:
-    """The first folders of the headers that a file includes under no condition but that of an include guard, each with
-    its first line, counted from 0."""
-    found: dict[str, int] = {}
-    content = _BLOCK_COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), Disk(db).content(path) or "")
-    depth = 0
-    for number, line in enumerate(content.splitlines()):
-        if (directive := _DIRECTIVE.match(line)) is None:
-            continue
-        if directive["name"].startswith("if"):
-            depth += directive["name"] != "ifndef" or _GUARD.search(line) is None
-        elif directive["name"] == "endif":
-            depth = max(depth - 1, 0)
-        elif not depth and directive["folder"] is not None:
-            found.setdefault(directive["folder"], number)
-    return tuple(found.items())
 
 
 def _of_launch_files(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -11,6 +11,7 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.build import LISTS, MADE
+from preflight_analysis.environment.cmake_syntax import may_make_files
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.git_submodules import left_submodule
 from preflight_analysis.environment.installed_paths import cmake_build, python_build
@@ -23,11 +24,6 @@ from preflight_analysis.rules.further_reading import FILE_SYSTEM, PYTHON_PACKAGE
 from preflight_analysis.rules.packages import check_packages, line_of, said_at
 from preflight_analysis.rules.rule import Rule
 
-_MAKES = re.compile(
-    r"(?i)\b(?:execute_process|add_custom_command|add_custom_target|configure_file|externalproject_add|fetchcontent_\w+"
-    r"|file\s*\(\s*(?:DOWNLOAD|MAKE_DIRECTORY|WRITE|GENERATE|COPY|CREATE_LINK))\b"
-)
-"""Commands by which a build makes files."""
 _AT_ONCE = "catkin_install_python"
 """What of catkin looks for the files when it configures."""
 _UNRESOLVED = re.compile(r"[$<>*?]")
@@ -96,7 +92,7 @@ def _installed(disk: Disk, package: Package) -> Iterator[_Missing]:
             if place is not None:
                 text = disk.content(said.file) or ""
                 at_once = package.is_ament or text[said.at :].lower().startswith(_AT_ONCE)
-                yield _Missing(item.source, written, place, _MAKES.search(text) is not None, at_once, item.is_folder)
+                yield _Missing(item.source, written, place, may_make_files(text), at_once, item.is_folder)
 
 
 RULE = Rule(

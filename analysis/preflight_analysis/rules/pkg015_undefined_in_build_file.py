@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.disk import Disk
@@ -11,6 +10,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.environment.build import LISTS
 from preflight_analysis.environment.cmake_references import Broken, Kind, broken_references
+from preflight_analysis.environment.cmake_syntax import may_make_files, word_end
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.git_submodules import left_submodule
 from preflight_analysis.environment.model import Environment, Package
@@ -38,11 +38,6 @@ _TEXTS: dict[Kind, str] = {
 }
 _OF_FILES = ("source", "interface")
 _OF_NAMES = ("target", "package")
-_MAKES = re.compile(
-    r"(?i)\b(?:execute_process|add_custom_command|configure_file|externalproject_add|fetchcontent_\w+|include\s*\(\s*\S+[./]"
-    r"|file\s*\(\s*(?:DOWNLOAD|WRITE|GENERATE|COPY|CREATE_LINK))\b"
-)
-"""Commands by which a build makes files."""
 
 
 def of_package(rule: Rule, disk: Disk, environment: Environment, package: Package) -> Iterator[Finding]:
@@ -62,13 +57,11 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
         more = f" (and {len(each.others)} more)" if each.kind == "unlisted" and each.others else ""
         yield rule.claim(
             _TEXTS[each.kind].format(name=each.name, by=each.by, more=more) + did_you_mean(near),
-            document.location(Span(each.at, end) if written else _word_at(document, each.at)),
+            document.location(Span(each.at, end) if written else Span(each.at, word_end(document.text, each.at))),
             subject=Subject("file" if file is not None else "name", file or each.name),
             effect="note" if each.kind == "unlisted" else None,
             kind="absent" if near is None else "near",
-            doubts=doubts(
-                MADE_ELSEWHERE=ignored, MADE_BY_BUILD=file is not None and _MAKES.search(document.text) is not None
-            ),
+            doubts=doubts(MADE_ELSEWHERE=ignored, MADE_BY_BUILD=file is not None and may_make_files(document.text)),
             candidates=(near,),
         )
 
@@ -78,11 +71,6 @@ def _near(disk: Disk, each: Broken, file: str | None) -> str | None:
         return nearest(each.name, each.others) if each.kind in _OF_NAMES else None
     name = nearest(os.path.basename(file), disk.names(os.path.dirname(file)))
     return os.path.join(os.path.dirname(each.name), name) if name is not None else None
-
-
-def _word_at(document: Document, at: int) -> Span:
-    found = re.compile(r"[^\s()\"]+").match(document.text, at)
-    return Span(at, found.end() if found is not None else at)
 
 
 RULE = Rule(
