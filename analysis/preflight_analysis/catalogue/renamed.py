@@ -75,12 +75,12 @@ _SUCCESSORS: Mapping[str, str] = {
 }
 """Packages of ROS 1, and those of ROS 2 that have their place (https://docs.ros.org/en/rolling/How-To-Guides/
 Migrating-from-ROS1.html, and the migration guides of Nav2 and gazebo_ros2_control)."""
-_PREDECESSORS: Mapping[str, str] = {new: old for old, new in _SUCCESSORS.items()}
+_IN_THEIR_PLACE: Mapping[int, Mapping[str, str]] = {1: {new: old for old, new in _SUCCESSORS.items()}, 2: _SUCCESSORS}
 
 
 def in_generation(package: str, generation: int) -> str | None:
     """The package of a generation of ROS that has the place of one of the other; None where none is known."""
-    return (_PREDECESSORS if generation == 1 else _SUCCESSORS).get(package)
+    return _IN_THEIR_PLACE[generation].get(package)
 
 
 def other_names(package: str, kind: str, name: str, distro: str) -> Iterator[tuple[str, str]]:

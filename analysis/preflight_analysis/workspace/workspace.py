@@ -35,6 +35,7 @@ from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.offered import with_offered_fixes
 from preflight_analysis.findings.severities import Severities, adjusted
+from preflight_analysis.generation import ros
 from preflight_analysis.graph.bare_types import with_packages
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
@@ -727,7 +728,7 @@ def _params_if(
 def _as_supposed(db: Database, workspace: Workspace, path: str) -> tuple[Finding, ...]:
     environment, package = workspace.environment_of(path), workspace.package_of(path)
     executables, document = _executables(db, workspace, environment), workspace.sources.text(path)
-    if package is None or package.generation != 2 or not isinstance(document, Document):
+    if package is None or not ros(package.generation).own_parameters or not isinstance(document, Document):
         return ()
     launch = supposed_launch(db, environment, executables, package, document)
     if launch is None:

@@ -110,7 +110,7 @@ class _Launched:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_common(parser, FORMATS)
-    parser.set_defaults(fail_on=None)
+    parser.set_defaults(fail_on="")  # what the profile says
     parser.add_argument(
         "launch_args",
         metavar="FILE",

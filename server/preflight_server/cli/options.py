@@ -42,7 +42,7 @@ def add_common(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text"
         "--fail-on",
         choices=(*reversed(SEVERITIES), NEVER),
         default="error",
-        help="exit with 1 on a finding of this severity or worse (default: %(default)s)",
+        help="exit with 1 on a finding of this severity or worse (default: error)",
     )
 
 

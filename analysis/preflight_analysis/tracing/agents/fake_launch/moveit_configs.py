@@ -13,7 +13,7 @@ import pathlib
 import re
 from typing import Any, Optional
 
-from ..anything import Anything
+from ..anything import Anything, is_unknown
 from .ament import get_package_share_directory
 from .base import (
     RECORDER,
@@ -339,8 +339,11 @@ _ATTRIBUTE = re.compile(r"""(\w+)\s*=\s*["']([^"']*)["']""")
 
 
 def generate_static_virtual_joint_tfs_launch(moveit_config: Any) -> LaunchDescription:
-    ld = LaunchDescription()
-    texts = [each for each in moveit_config.robot_description_semantic.values() if isinstance(each, str)]
+    texts = [*moveit_config.robot_description_semantic.values()]
+    ld = LaunchDescription(
+        [Anything("a virtual joint") for each in texts if not isinstance(each, str) or is_unknown(each)]
+    )
+    texts = [each for each in texts if isinstance(each, str)]
     joints = [dict(_ATTRIBUTE.findall(each)) for text in texts for each in _JOINT.findall(text)]
     for number, joint in enumerate(joints):
         frames = ["--frame-id", joint.get("parent_frame", ""), "--child-frame-id", joint.get("child_link", "")]
