@@ -96,8 +96,8 @@ def test_what_a_list_found_when_it_was_new_is_kept() -> None:
     known = FixList("first", "wiring", "40", "10", "38", "30", "", "")
     text = page({}, [], [], [known, known._replace(list="second", repositories="9", code="f00d")])
     assert (
-        "When the second list was new (40 fixes of 9 repositories, code f00d), 10 of 38 (26 %) of those that the "
-        "repository shows were an error or a warning." in text
+        "The second list has 40 fixes of 9 repositories. When it was new (code f00d), 10 of 38 (26 %) of the visible "
+        "ones were found above information." in text
     )
     assert "the first list" not in text
 

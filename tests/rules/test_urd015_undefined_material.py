@@ -18,8 +18,8 @@ INCLUDE = '<xacro:include filename="{}"/>'
 
 def test_a_name_that_is_nowhere_defined() -> None:
     assert said({"urdf/arm.xacro": xacro(PAINTED + NAMED)}, "URD015") == [
-        "urdf/arm.xacro:2 warning material 'organge' has no color or texture in this file or in those that it includes"
-        "; did you mean 'orange'?"
+        "urdf/arm.xacro:2 warning material 'organge' has no <color> or <texture> in this file or in those that it "
+        "includes; did you mean 'orange'?"
     ]
     assert len(said({"urdf/arm.urdf": f'<robot name="arm">{NAMED}{NAMED}</robot>'}, "URD015")) == 1
 

@@ -183,9 +183,9 @@ def _recall(fixes: Sequence[Fix], lists: Sequence[FixList]) -> list[str]:
         f"({sum(each.mistake == 'no' for each in fixes)}). The table has lists of fixes together, most of them known: "
         "causes of misses were fixed before.",
         " ".join(
-            f"When the {each.list} list was new ({each.fixes} fixes of {each.repositories} repositories, code "
-            f"{each.code}), {_share(int(each.unseen), int(each.checked_unseen))} of those that the repository shows "
-            "were an error or a warning."
+            f"The {each.list} list has {each.fixes} fixes of {each.repositories} repositories. When it was new (code "
+            f"{each.code}), {_share(int(each.unseen), int(each.checked_unseen))} of the visible ones were found above "
+            "information."
             for each in lists[::-1]
         ),
         f"In {len(hidden)} further fixes nothing in the repository shows the mistake; "

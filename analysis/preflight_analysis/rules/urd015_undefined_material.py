@@ -1,4 +1,4 @@
-"""URD015: a link of a robot description names a material that has no color and no texture anywhere."""
+"""URD015: a link of a robot description names a material that has no colour and no texture anywhere."""
 
 from __future__ import annotations
 
@@ -34,7 +34,8 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
         reported.add(name)
         near = nearest(name, known)
         yield rule.claim(
-            f"material '{name}' has no color or texture in this file or in those that it includes{did_you_mean(near)}",
+            f"material '{name}' has no <color> or <texture> in this file or in those that it includes"
+            f"{did_you_mean(near)}",
             file.document.location(used.span),
             subject=Subject("name", name),
             kind="absent" if near is None else "near",
@@ -51,9 +52,9 @@ RULE = Rule(
     kind="absent",
     always=(Reason.NOT_GIVEN,),
     sometimes=(Reason.EXPLAINED,),
-    what="Checks for a `<material>` of a link without a color or texture, whose name has none elsewhere in the robot "
-    "either. Files that include what is not known are not checked, nor those that are only made to be included.",
-    why="urdfdom logs `material 'orange' undefined`, and RViz shows the link in its default color.",
+    what="Checks for a `<material>` of a link without `<color>` or `<texture>`, whose name has none elsewhere in the "
+    "robot either. Files that include what is not known are not checked, nor those that are only made to be included.",
+    why="urdfdom logs `material 'orange' undefined`, and RViz shows the link in its default colour.",
     example='<visual>\n  <geometry><box size="1 1 1"/></geometry>\n  <material name="orange"/>\n</visual>',
     instead='<material name="orange"><color rgba="1 0.5 0 1"/></material>',
     references=(URDF_LINK,),
