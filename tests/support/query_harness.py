@@ -36,6 +36,9 @@ class Executables:
     def is_build_target(self, package: str, name: str) -> bool:
         return False
 
+    def is_in_build_file(self, package: str, name: str) -> bool:
+        return False
+
     def is_library_target(self, package: str, name: str) -> bool:
         return False
 

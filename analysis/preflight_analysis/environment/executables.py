@@ -60,6 +60,13 @@ class ExecutableIndex:
             return f"add_executable({name}" in words
         return name in words
 
+    def is_in_build_file(self, package: str, name: str) -> bool:
+        """Whether a `CMakeLists.txt` of the package has the name of a file or class among its words: its build may make
+        it."""
+        if package not in self._environment.packages:
+            return False
+        return name in _words_of_lists(self._db, self._environment, package)
+
     def is_library_target(self, package: str, name: str) -> bool:
         """Whether a `CMakeLists.txt` of the package names the library (`vision` for `libvision.so`), likewise."""
         if package not in self._environment.packages:

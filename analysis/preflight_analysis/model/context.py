@@ -39,6 +39,9 @@ class ExecutableNames(Executables, Protocol):
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether building the package will make the executable."""
 
+    def is_in_build_file(self, package: str, name: str) -> bool:
+        """Whether the build files of the package have the name of a file or class among their words."""
+
     def is_library_target(self, package: str, name: str) -> bool:
         """Whether building the package will make the library."""
 

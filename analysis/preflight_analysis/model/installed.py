@@ -254,7 +254,7 @@ def is_made_of_template(context: Context, path: str) -> bool:
     if package is None or not any(context.disk.exists(path + ending) for ending in _TEMPLATES):
         return False
     below = os.path.relpath(path, package.share)
-    return any(context.executables.is_build_target(package.name, below + ending) for ending in _TEMPLATES)
+    return any(context.executables.is_in_build_file(package.name, below + ending) for ending in _TEMPLATES)
 
 
 def lack_of_variable(context: Context, name: str) -> Lack | None:

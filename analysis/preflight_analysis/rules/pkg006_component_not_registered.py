@@ -42,7 +42,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         registered = executables.components(node.package)
         # A word of the build files that is not understood as a registration may well be one.
-        if not registered or node.plugin in registered or executables.is_build_target(node.package, node.plugin):
+        if not registered or node.plugin in registered or executables.is_in_build_file(node.package, node.plugin):
             continue
         near = nearest_class(node.plugin, registered)
         location = attribute_location(context, node, "plugin")

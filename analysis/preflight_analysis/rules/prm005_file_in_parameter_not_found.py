@@ -273,7 +273,7 @@ def _is_built(below: str, share: str, context: Context) -> bool:
     """Whether the package's CMakeLists.txt speaks of the file: then building the package makes it."""
     executables = context.executables
     package = next((p.name for p in context.environment.packages.values() if p.share.rstrip("/") == share), None)
-    return executables is not None and package is not None and executables.is_build_target(package, below.strip("/"))
+    return executables is not None and package is not None and executables.is_in_build_file(package, below.strip("/"))
 
 
 def _paths(text: str, environment: Environment) -> Iterable[str]:
