@@ -93,6 +93,14 @@ def test_a_link_to_a_script_that_may_be_executed_works(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "files",
     [
+        # onkoe/auto_ros2: where it belongs, and elsewhere as well
+        {
+            **PYTHON,
+            "setup.py": SETUP.replace(
+                "        ('share/' + package_name + '/launch'",
+                "        ('share/other', ['package.xml']),\n        ('share/' + package_name + '/launch'",
+            ),
+        },
         PYTHON,
         {**PYTHON, "setup.cfg": "[develop]\nscript-dir=$base/lib/arm\n[install]\ninstall-scripts=$base/lib/arm\n"},
         {

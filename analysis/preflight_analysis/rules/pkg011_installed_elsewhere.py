@@ -91,7 +91,10 @@ def _is_of(lines: list[str], index: int, command: str) -> bool:
 
 def _files_of_python(rule: Rule, package: Package, called: Called, document: Document) -> Iterator[Finding]:
     share, said = f"share/{package.name}", set[str]()
+    found = {each.source for each in called.copied if f"{each.destination}/".startswith(f"{share}/")}
     for each in called.copied:
+        if each.source in found:
+            continue  # it is where it belongs, and elsewhere as well
         folders = each.destination.split("/")
         is_below = f"{each.destination}/".startswith((f"{share}/", "share/ament_index/")) or folders == ["share"]
         is_launch = each.source.endswith(_OF_ROS2_LAUNCH) and folders[0] not in ("lib", "..")
