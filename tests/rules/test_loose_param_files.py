@@ -144,6 +144,7 @@ def test_controllers(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("section", "param"),
     [
+        ("driver", "wheel_radius: <WHEEL_RADIUS>"),  # ReplaceString writes it
         ("driver", "wheel_radius: 0.2"),
         ("driver", "of_another: 0.2"),
         ("somebody", "wheel_radius: 1"),

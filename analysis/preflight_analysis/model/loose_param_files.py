@@ -27,6 +27,8 @@ _MOST = 200
 """Files of one package that are read."""
 _LONGEST = 200_000
 """Characters of one."""
+_TEMPLATE = re.compile(r"\$\(|:[ \t]+['\"]?<\w+>['\"]?[ \t]*$", re.MULTILINE)
+"""What is replaced before a node gets the file: substitutions, and whole values as `ReplaceString` of Nav2 has them."""
 _MAY_BE_MARK = re.compile(r"^[ \t]+ro?s?_*pa?ra?m\w*:", re.MULTILINE)
 
 
@@ -36,6 +38,11 @@ def loose_param_files(context: Context) -> list[str]:
     if package is None or context.environment.is_installed(package) or not context.tree.ros.own_parameters:
         return []
     return sorted(param_files_around(context, package.share) - first_getters(context).keys())
+
+
+def is_template(text: str) -> bool:
+    """Whether no node gets the file as it is: something else puts values in it first."""
+    return _TEMPLATE.search(text) is not None
 
 
 def param_files_around(context: Context, share: str) -> frozenset[str]:
@@ -84,4 +91,4 @@ def _is_one(db: Database, path: str, base: str) -> bool:
         return False
     document = Disk(db).text(path)
     text = document.text if isinstance(document, Document) else ""
-    return len(text) <= _LONGEST and "$(" not in text and (MARK in text or _MAY_BE_MARK.search(text) is not None)
+    return len(text) <= _LONGEST and not is_template(text) and (MARK in text or _MAY_BE_MARK.search(text) is not None)

@@ -21,6 +21,7 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import read_launch
 from preflight_analysis.model.context import ExecutableNames
+from preflight_analysis.model.loose_param_files import is_template
 from preflight_analysis.model.programs_by_name import Program, program_called
 
 _GENERATION = 2
@@ -42,6 +43,8 @@ def supposed_launch(
     db: Database, environment: Environment, executables: ExecutableNames, package: Package, document: Document
 ) -> Supposed | None:
     """A launch file that starts the nodes with the file; None where it is for none that is known."""
+    if is_template(document.text):
+        return None
     started: dict[str, Program] = {}
     loaded: list[tuple[str, str]] = []
     for section in read_param_file(document).sections:
