@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ from preflight_analysis.documents.span import LineIndex, Span
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.report import Report
-from preflight_server.cli.fixing import planned
+from preflight_server.cli.fixing import key_of, planned
+from support.editor_harness import Harness
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -63,6 +65,20 @@ def test_a_diff_is_what_would_be_written(workspace: Path, preflight: Run) -> Non
     assert texts(workspace)["robot.launch"] == RIGHT.replace("output", "outpt")
     done = preflight("check", "robot.launch", "--no-run", "--diff", "--select", "LCH004", cwd=workspace)
     assert (done.code, done.out) == (0, "")
+
+
+def test_a_patch_has_the_line_ends_of_the_file(workspace: Path, harness: Harness) -> None:
+    file = workspace / "robot.launch"
+    file.write_bytes(WRONG.replace("\n", "\r\n").replace('name="a"', 'name="a" ns="\x85"').encode())
+    check = [str(harness.server), "check", "robot.launch", "--no-run"]
+    environment = {**harness.environment, "LANG": "C"}
+    done = subprocess.run([*check, "--diff"], cwd=workspace, env=environment, capture_output=True, check=False)
+    assert b"robot.launch" not in done.stdout, "U+0085 may drive a terminal"
+    assert b"robot.launch is left alone: its patch has characters that drive a terminal" in done.stderr
+    file.write_bytes(WRONG.replace("\n", "\r\n").replace('name="a"', 'name="\xe4"').encode())
+    done = subprocess.run([*check, "--diff"], cwd=workspace, env=environment, capture_output=True, check=False)
+    subprocess.run(["git", "apply", "-p0"], input=done.stdout, cwd=workspace, check=True)
+    assert b'<arg name="rate" default="10"/>\r\n' in file.read_bytes()
 
 
 def test_only_what_is_selected_and_new_is_fixed(workspace: Path, preflight: Run) -> None:
@@ -126,6 +142,30 @@ def test_fixes_that_together_leave_a_file_that_does_not_parse_are_not_made(tmp_p
     same = Report([finding(9, 10, "b"), finding(9, 10, "c")], {str(file): document})
     plan = planned(same, [str(tmp_path)], {}, typed={}, unsafe=False)
     assert plan.changes[str(file)].after == "<launch><b/></launch>", "of two for one text the first"
+
+
+def test_a_finding_that_stays_where_it_was_is_not_fixed(tmp_path: Path) -> None:
+    file = tmp_path / "a.launch"
+    text = "<launch>\n<a/>\n<b/>\n</launch>\n"
+    file.write_text(text)
+    document = Document(str(file), text, digest(text), (), (), LineIndex(text))
+
+    def finding(start: int, end: int, new: str, rule: str) -> Finding:
+        place = document.location(Span(start, end))
+        return Finding(
+            rule, "n", "error", "certain", rule, place, fixes=(Fix("f", (Edit(place, new),), preferred=True),)
+        )
+
+    one, two = finding(10, 11, "longer", "ABC001"), finding(15, 16, "c", "ABC002")
+    report = Report([one, two], {str(file): document})
+    plan = planned(report, [str(tmp_path)], {}, typed={}, unsafe=False)
+    now = plan.changes[str(file)].after
+    after = Document(str(file), now, digest(now), (), (), LineIndex(now))
+    stays = replace(two, location=after.location(Span(20, 21)))
+    assert plan.futile(Report([stays], {})) == [(two, two.fixes[0])]
+    assert plan.futile(Report([], {})) == []
+    again = planned(report, [str(tmp_path)], {}, {key_of(two)}, typed={}, unsafe=False)
+    assert again.changes[str(file)].after == text.replace("<a/>", "<longer/>")
 
 
 def test_a_file_that_cannot_be_written_leaves_all_as_they_were(workspace: Path) -> None:

@@ -171,7 +171,7 @@ def closing(report: Report, base: str | None = None) -> Iterator[str]:
     machine, what was not looked at, and the summary. Files below the folder `base` are shown relative to it."""
     causes = report.causes()
     if len(causes) > _FEW:
-        yield "\n".join(_rule_lines(causes))
+        yield "\n".join(line for _, line in _rule_lines(causes))
     if not report.complete:
         yield "\n".join(environment_lines(report))
     if lines := [*_not_looked_at(report.coverage, base)]:
@@ -184,9 +184,8 @@ def statistics(report: Report, base: str | None = None) -> str:
     """How many findings each rule has, and of how many a fix is certain, instead of the findings."""
     causes = report.causes()
     fixable = Counter(each.rule for each in causes if each.safe_fix is not None)
-    lines = [f"{line}, {n} fixed by --fix" if (n := fixable[line[:6]]) else line for line in _rule_lines(causes)]
-    summary = replace(report, findings=()) if not causes else report
-    return "\n".join([*_incomplete(report.coverage), *lines, [*closing(summary, base)][-1]]) + "\n"
+    lines = [f"{line}, {n} fixed by --fix" if (n := fixable[rule]) else line for rule, line in _rule_lines(causes)]
+    return "\n".join([*_incomplete(report.coverage), *lines, [*closing(report, base)][-1]]) + "\n"
 
 
 def _hidden(report: Report) -> str:
@@ -240,10 +239,11 @@ def environment_lines(report: Report) -> Iterator[str]:
     yield from (f"    {printable(command)}" for command in commands(report.missing))
 
 
-def _rule_lines(causes: Sequence[Finding]) -> Iterator[str]:
+def _rule_lines(causes: Sequence[Finding]) -> Iterator[tuple[str, str]]:
+    """The rules that have most findings first, each with a line about it."""
     names = {finding.rule: finding.name for finding in causes}
     for rule, counts in sorted(_by_rule(causes).items(), key=lambda each: (-each[1].total(), each[0])):
-        yield f"{rule} {names[rule]}: {_counted(counts)}"
+        yield rule, f"{rule} {names[rule]}: {_counted(counts)}"
 
 
 def _by_rule(causes: Iterable[Finding]) -> dict[str, Counter[Severity]]:

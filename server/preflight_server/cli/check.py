@@ -38,11 +38,11 @@ from preflight_analysis.workspace.workspace import Analysis
 from preflight_server.cli import options
 from preflight_server.cli.again import Looked, again_and_again
 from preflight_server.cli.changes import changed_since, touched
-from preflight_server.cli.errors import BROKEN, CLEAN, CannotDoError
-from preflight_server.cli.fixing import planned, suppressed
+from preflight_server.cli.errors import BROKEN, CLEAN, FOUND, CannotDoError
+from preflight_server.cli.fixing import Key, key_of, planned, suppressed
 from preflight_server.cli.garbage import uncollected
 from preflight_server.cli.launches import STANDARD_INPUT, Launches, launches
-from preflight_server.cli.output import colours, links, print_json, print_text, say, say_failures
+from preflight_server.cli.output import colours, links, print_json, print_patch, print_text, say, say_failures
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.progress import Progress
 from preflight_server.cli.project import Project, run_nodes_together
@@ -184,24 +184,24 @@ def _require_sense(args: argparse.Namespace) -> None:
 def _look(args: argparse.Namespace) -> Looked:
     """Print the findings once."""
     known = _known(args.baseline) if args.baseline else frozenset()
-    typed = {os.path.abspath(args.stdin_filename): sys.stdin.read()} if args.stdin_filename else {}
+    typed = {os.path.abspath(args.stdin_filename): _standard_input()} if args.stdin_filename else {}
     chosen, report, checked = _checked(args, known, typed)
     homes = [launch.home for launch in chosen]
     if args.write_baseline:
         say_failures(report.failures)
         return Looked(_write_baseline(report, args.write_baseline), homes, checked)
     severity: Severity = args.severity or ("info" if args.format == "text" else "hint")
-    if args.add_noqa:
-        return Looked(_suppress(report.at_least(severity), homes), homes, checked)
-    if args.diff:
-        plan = planned(report.at_least(severity), homes, {}, typed=typed, unsafe=args.unsafe)
-        _say_left(plan.left)
-        print_text("".join(plan.diff(os.getcwd())))
-        return Looked(int(bool(plan.changes)), homes, checked)
-    if args.fix:
+    if args.fix and not args.diff:
         report, again = _fix(report, homes, severity, args, known)
         checked = again or checked
     say_failures(report.failures)
+    if args.add_noqa or args.diff:
+        does = (
+            _suppress(report.at_least(severity), homes)
+            if args.add_noqa
+            else _diff(report.at_least(severity), homes, typed, args)
+        )
+        return Looked(BROKEN if report.failures else does, homes, checked)
     failing = options.failing(
         report.findings, args.fail_on or ("warning" if _profile(args, chosen) == "strict" else "error")
     )
@@ -237,10 +237,11 @@ def _fix(
     """Make the fixes, look again, and make those that this shows; what is found then. A file that is less evaluated
     with its fixes is as it was."""
     left: dict[str, str] = {}
-    done: set[tuple[str, str, str]] = set()
+    futile: set[Key] = set()
+    fixed: list[str] = []
     checked: tuple[str, ...] = ()
     for _ in range(_MOST_ROUNDS):
-        plan = planned(report.at_least(severity), homes, left, typed={}, unsafe=args.unsafe)
+        plan = planned(report.at_least(severity), homes, left, futile, typed={}, unsafe=args.unsafe)
         left.update(plan.left)
         if not plan.changes:
             break
@@ -249,22 +250,44 @@ def _fix(
             _, after, checked = _checked(args, known)
             # A fix may show further mistakes: they are told. That a file is lost for the launch is none of them.
             lost = {*after.coverage.not_evaluated} - {*report.coverage.not_evaluated}
-            undone = plan.undo(lost & plan.changes.keys())
+            lost &= plan.changes.keys()
+            in_vain = plan.futile(after)
+            of_these = {edit.location.file for _, fix in in_vain for edit in fix.edits}
+            undone = plan.undo(lost | of_these)
         except OSError as error:
             raise CannotDoError(f"{error.filename} cannot be written: {error.strerror}") from None
         if undone:
-            left.update(dict.fromkeys(undone, "with its fixes it is not evaluated as a whole"))
+            left.update(dict.fromkeys(lost, "with its fixes it is not evaluated as a whole"))
+            futile.update(key_of(finding) for finding, _ in in_vain)
             _, after, checked = _checked(args, known)
-        for finding, fix in plan.fixes:
-            if undone.isdisjoint(edit.location.file for edit in fix.edits):
-                done.add((place(finding.location, report.documents, os.getcwd()), finding.rule, fix.title))
+        for finding, fix in sorted(plan.fixes, key=lambda each: each[0].location):
+            where = f"{place(finding.location, report.documents, os.getcwd())}: {finding.rule}: {fix.title}"
+            if key_of(finding) in futile:
+                say(f"not fixed {where}: the finding stays")
+            elif undone.isdisjoint(edit.location.file for edit in fix.edits):
+                say(f"fixed {where}")
+                fixed.append(finding.location.file)
         report = after
-    for where, rule, title in sorted(done):
-        say(f"fixed {where}: {rule}: {title}")
-    files = {where.rsplit(":", 2)[0] for where, _, _ in done}
-    say(f"ros-preflight: fixed: {len(done)}, in files: {len(files)}")
+    say(f"ros-preflight: fixed: {len(fixed)}, in files: {len(set(fixed))}")
     _say_left(left)
     return report, checked
+
+
+def _diff(report: Report, homes: Sequence[str], typed: Mapping[str, str], args: argparse.Namespace) -> int:
+    """Print what fixes would change."""
+    plan = planned(report, homes, {}, typed=typed, unsafe=args.unsafe)
+    unprinted = [file for file, patch in plan.patches(os.getcwd()) if not print_patch(patch)]
+    _say_left(
+        {**plan.left, **dict.fromkeys(unprinted, "its patch has characters that drive a terminal; --fix changes it")}
+    )
+    return FOUND if plan.changes else CLEAN
+
+
+def _standard_input() -> str:
+    try:
+        return sys.stdin.buffer.read().decode("utf-8").removeprefix("\ufeff")
+    except UnicodeDecodeError:
+        raise CannotDoError("standard input is not in UTF-8") from None
 
 
 def _suppress(report: Report, homes: Sequence[str]) -> int:

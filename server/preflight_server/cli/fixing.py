@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import unified_diff
 from pathlib import Path
@@ -20,6 +20,8 @@ from preflight_analysis.findings.report import Report, relative
 from preflight_analysis.queries.suppressing import suppress_on_line
 
 _BOM = "\ufeff"
+Key = tuple[str, str, str]
+"""Rule, file and message of a finding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,20 +54,35 @@ class Planned:
         _write({file: self.changes[file].before for file in undone}, self.changes)
         return frozenset(undone)
 
-    def diff(self, base: str) -> Iterator[str]:
-        """The lines of a patch that `patch -p0` and `git apply -p0` take, with their line ends."""
+    def futile(self, after: Report) -> list[tuple[Finding, Fix]]:
+        """The findings that are still where they were, by a report of the files as they are now, with their fixes."""
+        found = {(each.rule, each.location.file, each.location.span.start) for each in after.findings}
+        edits = by_file(edit for _, fix in self.fixes for edit in fix.edits)
+        return [each for each in self.fixes if (each[0].rule, *_place_after(each[0], edits)) in found]
+
+    def patches(self, base: str) -> Iterator[tuple[str, str]]:
+        """Each file with the patch of it that `patch -p0` and `git apply -p0` take."""
         for file, change in sorted(self.changes.items()):
             name = relative(file, base)
-            before, after = (text.splitlines(keepends=True) for text in (change.before, change.after))
-            for line in unified_diff(before, after, name, name):
-                yield line if line.endswith(("\n", "\r")) else f"{line}\n\\ No newline at end of file\n"
+            before, after = (_lines(text) for text in (change.before, change.after))
+            lines = unified_diff(before, after, name, name)
+            yield (
+                file,
+                "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines),
+            )
 
 
 def planned(
-    report: Report, homes: Sequence[str], left: Mapping[str, str], *, typed: Mapping[str, str], unsafe: bool
+    report: Report,
+    homes: Sequence[str],
+    left: Mapping[str, str],
+    futile: Collection[Key] = (),
+    *,
+    typed: Mapping[str, str],
+    unsafe: bool,
 ) -> Planned:
     """The fixes of findings that do not touch the same text, the most severe first, in files of the workspaces `homes`
-    that are not `left` alone. Of files in `typed` that text counts."""
+    that are not `left` alone; none of findings that are `futile` to fix. Of files in `typed` that text counts."""
     texts = dict(typed)
     edits: dict[str, list[Edit]] = {}
     left = dict(left)
@@ -76,7 +93,7 @@ def planned(
         if unsafe and fix is None:
             # What an editor would make unasked, else the first.
             fix = next((each for each in finding.fixes if each.preferred), next(iter(finding.fixes), None))
-        if fix is None or fix.edits in known:
+        if fix is None or fix.edits in known or key_of(finding) in futile:
             continue
         known.add(fix.edits)
         new = by_file(fix.edits)
@@ -88,12 +105,13 @@ def planned(
             chosen.append((finding, fix))
             for file, each in new.items():
                 edits.setdefault(file, []).extend(each)
-    for file, each in edits.items():
-        why = refusal(each, texts.get)
-        if why is not None:
-            left[file] = f"fixes of it cannot be made together: {why}"
-    kept = [(finding, fix) for finding, fix in chosen if left.keys().isdisjoint(by_file(fix.edits))]
-    final = by_file(edit for _, fix in kept for edit in fix.edits)
+    while True:  # until no file is refused: what is not made in one may be half of what is made in another
+        kept = [(finding, fix) for finding, fix in chosen if left.keys().isdisjoint(by_file(fix.edits))]
+        final = by_file(edit for _, fix in kept for edit in fix.edits)
+        refused = {file: why for file, each in final.items() if (why := refusal(each, texts.get)) is not None}
+        if not refused:
+            break
+        left |= {file: f"fixes of it cannot be made together: {why}" for file, why in refused.items()}
     changes = {file: Change(texts[file], applied(texts[file], each)) for file, each in final.items()}
     return Planned(tuple(kept), changes, left)
 
@@ -123,6 +141,23 @@ def suppressed(report: Report, homes: Sequence[str]) -> tuple[Planned, int]:
         if now != text:
             changes[file] = Change(text, now)
     return Planned((), changes, left), without
+
+
+def _place_after(finding: Finding, edits: Mapping[str, Sequence[Edit]]) -> tuple[str, int]:
+    """The file of a finding, and the offset in it that its start has after all edits."""
+    file, start = finding.location.file, finding.location.span.start
+    before = [edit for edit in edits.get(file, ()) if edit.location.span.end <= start]
+    return file, start + sum(len(edit.text) - (edit.location.span.end - edit.location.span.start) for edit in before)
+
+
+def key_of(finding: Finding) -> Key:
+    """What a finding is known by while its file changes."""
+    return finding.rule, finding.location.file, finding.message
+
+
+def _lines(text: str) -> list[str]:
+    """The lines as patches have them: other characters that Python takes for the end of one are text."""
+    return [f"{line}\n" for line in text.split("\n")[:-1]] + [last for last in text.split("\n")[-1:] if last]
 
 
 def _fits(text: str, edits: Sequence[Edit], more: Sequence[Edit]) -> bool:

@@ -51,6 +51,17 @@ def print_text(text: str, *, painted: bool = False, commands: bool = False) -> N
         stream.write(text.encode(stream.encoding, "replace").decode(stream.encoding))
 
 
+def print_patch(text: str) -> bool:
+    """A patch as it is, so that it applies. False, and nothing is printed, if it has what would drive a terminal or
+    GitHub's runner."""
+    plain = text.replace("\r\n", "\n")
+    if printable(plain, lines=True) != plain or _no_command(plain) != plain:
+        return False
+    sys.stdout.flush()
+    sys.stdout.buffer.write(text.encode())
+    return True
+
+
 def colours() -> bool:
     """Whether standard output shows colours, and its reader wants them (https://no-color.org)."""
     return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
