@@ -406,6 +406,11 @@ class LaunchTree(Remembering):
         return ros(self.generation)
 
     @property
+    def lacking(self) -> tuple[str, ...]:
+        """The arguments without a value: it cannot be launched without them."""
+        return tuple(name for name, arg in self.args.items() if arg.value is None)
+
+    @property
     def all_params(self) -> tuple[Param, ...]:
         """The parameters of all nodes and namespaces; the same object each time."""
         return _all_params(self)

@@ -172,10 +172,9 @@ def entry_of(tree: LaunchTree, root: Root) -> RootEntry:
 
 def _unknowns(tree: LaunchTree) -> int:
     """How much of a launch is not known, of what an outline has."""
-    lacking = sum(arg.value is None for arg in tree.args.values())
     not_run = sum(command.launch_file and command.result is None for command in tree.commands)
     unnamed = sum("$(" in node.name for node in tree.nodes)
-    return lacking + not_run + unnamed + sum(include.path is None for include in tree.includes)
+    return len(tree.lacking) + not_run + unnamed + sum(include.path is None for include in tree.includes)
 
 
 class _Maker:

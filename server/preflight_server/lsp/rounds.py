@@ -148,7 +148,7 @@ class Snapshot:
         """The findings of all roots by file, of a file for which the user chose a root those in that one. Files that
         are not open are read for their lines. `changed` has the files that are not what a root was made of."""
         kept = Kept(self.before.kept if self.before is not None else None)
-        alone = (root for root in self.shown if root in analyses and not _lacks_arguments(analyses[root]))
+        alone = (root for root in self.shown if root in analyses and not analyses[root].tree.lacking)
         count = counting({root: each.tree.files for root, each in analyses.items()}, {*self.named, *alone})
         # Which of them comes first decides how a finding is worded: not the file that was edited last.
         shown_roots = {root: analyses[root] for root in sorted(analyses) if root in count}
@@ -183,11 +183,6 @@ class Snapshot:
         for root, files in self.awaited.items():
             if root not in analyses:
                 yield RootFindings(root.label, files, ())
-
-
-def _lacks_arguments(analysis: Analysis) -> bool:
-    """Whether a root cannot be launched as it is."""
-    return any(arg.value is None for arg in analysis.tree.args.values())
 
 
 def _of_chosen(reports: Mapping[Root, RootFindings], chosen: Mapping[Root, Collection[str]]) -> Iterable[RootFindings]:
